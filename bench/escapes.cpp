@@ -68,7 +68,7 @@ class Inside {
     /// At a vertex, or a point between two. Not along the patch's own plane: the point that the ray
     /// leaves from may lie outside by a rounding error, or by what a quad may be bent.
     [[nodiscard]] Ray aimed_ray(Rng& rng) const {
-        constexpr double least_sine = 1e-5;
+        constexpr double min_sine = 1e-5;
         for (;;) {
             Ray ray = cosine_ray(rng);
             const Vec3 normal = mesh_.patches()[mesh_.patch_of(ray.from, true)].normal;
@@ -78,7 +78,7 @@ class Inside {
             const double share = std::max(2 * rng.uniform() - 1, 0.0); // half of them: a vertex
             const Vec3 &a = to.shape.corner[c], &b = to.shape.corner[(c + 1) % corners];
             ray.direction = a + share * (b - a) - ray.origin;
-            if (glm::dot(normal, ray.direction) > least_sine * glm::length(ray.direction))
+            if (glm::dot(normal, ray.direction) > min_sine * glm::length(ray.direction))
                 return ray;
         }
     }

@@ -211,7 +211,7 @@ void print_first(const char* name, double threshold, const std::vector<Step>& st
     std::puts("");
 }
 
-void experiment(const char* path, const std::string& folder, int runs, int most_steps,
+void experiment(const char* path, const std::string& folder, int runs, int max_steps,
                 const char* camera) {
     const Mesh mesh = layered_mesh(read_obj(path).scene);
     const WideBvh bvh(mesh.soup());
@@ -221,7 +221,7 @@ void experiment(const char* path, const std::string& folder, int runs, int most_
     view.write_crop(folder + "/detail-reference.png", view.picture(truth));
     std::array<std::vector<Step>, methods.size()> steps;
     for (std::size_t m = 0; m < methods.size(); ++m) {
-        steps[m].resize(static_cast<std::size_t>(most_steps));
+        steps[m].resize(static_cast<std::size_t>(max_steps));
         for (int r = 0; r < runs; ++r)
             measure(methods[m], mesh, bvh, view, static_cast<std::uint64_t>(r + 1), steps[m],
                     folder);

@@ -27,6 +27,13 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/hemiluxConfigVersion.cmak
 install(FILES ${PROJECT_BINARY_DIR}/hemiluxConfig.cmake ${PROJECT_BINARY_DIR}/hemiluxConfigVersion.cmake
         DESTINATION ${package_folder} COMPONENT library)
 file(RELATIVE_PATH up_to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+set(libraries "")
+foreach(storey IN LISTS storeys)
+  string(PREPEND libraries "-lhemilux_${storey} ")
+endforeach()
+if(TARGET hemilux)
+  string(PREPEND libraries "-lhemilux ")
+endif()
 configure_file(cmake/hemilux.pc.in hemilux.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/hemilux.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
         COMPONENT library)

@@ -18,7 +18,7 @@ int main() {
     using namespace hemilux;
     const Mesh mesh(read_obj("examples/scenes/furnace_lshape.obj").scene);
     const WideBvh bvh(mesh.soup());
-    constexpr double expected = 2, most_standard_errors = 5, rounding = 1e-9;
+    constexpr double expected = 2, max_standard_errors = 5, rounding = 1e-9;
     SolveOptions options;
     bool good = true;
     std::printf("%-24s      rays   mean B  largest miss  in standard errors\n", "method");
@@ -32,18 +32,18 @@ int main() {
         run(*solver, input, stop);
 
         const Solution& solution = solver->solution();
-        double sum = 0, largest_miss = 0, most_errors = 0;
+        double sum = 0, largest_miss = 0, max_errors = 0;
         for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
             const double b = solution.radiosity[i].x, miss = std::abs(b - expected);
             sum += b;
             largest_miss = std::max(largest_miss, miss);
             if (miss > rounding)
-                most_errors = std::max(most_errors, miss / solution.standard_error[i].x);
+                max_errors = std::max(max_errors, miss / solution.standard_error[i].x);
         }
         std::printf("%-24.*s %9llu  %7.5f  %12.2g  %8.2f\n", static_cast<int>(method->name.size()),
                     method->name.data(), static_cast<unsigned long long>(solution.rays_energy),
-                    sum / static_cast<double>(mesh.patches().size()), largest_miss, most_errors);
-        good = good && most_errors < most_standard_errors && largest_miss < 0.5;
+                    sum / static_cast<double>(mesh.patches().size()), largest_miss, max_errors);
+        good = good && max_errors < max_standard_errors && largest_miss < 0.5;
     }
     return good ? 0 : 1;
 }

@@ -38,7 +38,7 @@ struct Contender {
     const char* name; ///< of its pictures
     const char* method;
     bool literal;
-    int most_runs = 1000;
+    int max_runs = 1000;
 };
 constexpr std::array<Contender, 4> contenders = {{{"classical", "progressive-monte-carlo", false},
                                                   {"new", "hemisphere", false},
@@ -149,7 +149,7 @@ int experiment(const char* scene, const char* folder, int runs) {
     Table table;
     for (int r = 0; r < runs; ++r) // the contenders take turns, so that none has the quiet hours
         for (std::size_t c = 0; c < contenders.size(); ++c)
-            if (r < contenders[c].most_runs)
+            if (r < contenders[c].max_runs)
                 measure(contenders[c], mesh, bvh, static_cast<std::uint64_t>(r + 1), truth,
                         table[c]);
     print(table, mesh);

@@ -39,7 +39,7 @@ edges_count_twice @@ paper @@ geometry/watertight.h @@ return up == counter_cloc
 front_is_back @@ paper @@ geometry/watertight.h @@ ec / sum, sum < 0} @@ ec / sum, sum > 0}
 areas_below_the_horizon @@ paper @@ geometry/spherical_triangle.cpp @@ sum += angle * normal_[i].z @@ sum += angle * std::abs(normal_[i].z)
 triangles_sampled_as_fans @@ paper @@ geometry/polygon_sampler.cpp @@ second_ = triangle_ ? c - b : d - a @@ second_ = triangle_ ? c - a : d - a
-no_floor @@ engine @@ radiosity/engine/methods/hemisphere.cpp @@ least_share = 0.25 @@ least_share = 0.025
+no_floor @@ engine @@ radiosity/engine/methods/hemisphere.cpp @@ min_share = 0.25 @@ min_share = 0.025
 roulette_of_engine @@ engine @@ radiosity/engine/shooting/bounces_plan.cpp @@ expected >= 1 ? static_cast<double>(high - low) : expected @@ static_cast<double>(high - low)
 byte_wraps_in_engine @@ engine @@ radiosity/engine/densities/density.cpp @@ std::min(tracer.count(ray), 255u) @@ tracer.count(ray)
 chance_within_cluster @@ engine @@ radiosity/engine/emitters/emitter_choice.cpp @@ (powers[k + 1] - powers[k]) / power @@ 1.0 / (cluster.end - cluster.begin)

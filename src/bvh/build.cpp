@@ -9,7 +9,7 @@ namespace {
 
 constexpr int bins = 16;              ///< candidates per axis; more: slightly better trees
 constexpr std::uint32_t max_leaf = 8; ///< facets in a leaf at most
-constexpr double cost_visit = 1.0;    ///< of a node's two boxes, relative to the test of one facet
+constexpr double cost_visit = 1.0;    ///< price of a node's two boxes; 1: the test of a facet
 
 /// A facet's box and the point by which it is sorted into bins.
 struct Item {
@@ -63,7 +63,7 @@ class Builder {
     [[nodiscard]] Box bounds() const { return {bounds_.low - widen_, bounds_.high + widen_}; }
 
   private:
-    static constexpr int balanced_below = 64; ///< from this depth on ranges are halved
+    static constexpr int balanced_below = 64; ///< depth from which ranges are halved
 
     void add(const FacetSoup& soup, std::uint32_t facet) {
         Box box;

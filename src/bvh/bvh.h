@@ -41,7 +41,7 @@ class Bvh final : public Tracer {
     void traverse(const Ray& ray, const double& t_max, Leaf&& leaf) const;
 
     std::vector<Vec3> vertices_;
-    std::vector<FacetCorners> facets_; ///< in the order of the leaves
+    std::vector<FacetCorners> facets_; ///< facets in the order of the leaves
     std::vector<std::uint32_t> order_; ///< leaf slot -> facet as given
     std::vector<Node> nodes_;
     Child root_;

@@ -18,7 +18,7 @@ inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 /// The points origin + t direction, for t in (t_min, t_max]. t counts in lengths of the direction,
 /// which need not be of unit length.
 struct Ray {
-    Vec3 origin; ///< in the units of the facets
+    Vec3 origin; ///< origin in the units of the facets
     Vec3 direction;
     double t_max = std::numeric_limits<double>::infinity();
     /// It is large enough that rounding makes no ray hit a coplanar duplicate of the facet it
@@ -33,7 +33,7 @@ struct Ray {
 /// The point where a ray hits a facet.
 struct Hit {
     std::uint32_t facet;
-    double t; ///< in lengths of the ray's direction
+    double t; ///< distance in lengths of the ray's direction
     /// The barycentric coordinates [-] in the triangle that was hit: point = (1-u-v) p0 + u p1 + v
     /// p2. The triangle is corners (0,1,2), or (0,2,3) in the second half of a quad.
     double u, v;

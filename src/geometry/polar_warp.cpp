@@ -172,10 +172,10 @@ double PolarWarp::Sector::area_before(Vec2 azimuth) const {
 /// Finds the root of area_before(angle) = target. Near the apex the area grows with the square of
 /// the angle, which gives the first guess. Halley's step is kept inside the bracket.
 double PolarWarp::Sector::azimuth_at(double target) const {
-    constexpr int most_steps = 60;
+    constexpr int max_steps = 60;
     double low = 0, high = range;
     double angle = std::min(range, range * std::sqrt(target / area));
-    for (int i = 0; i < most_steps; ++i) {
+    for (int i = 0; i < max_steps; ++i) {
         const Vec2 azimuth = azimuth_from(angle);
         const double first_area = first.area(azimuth), second_area = second.area(azimuth);
         const double f = std::abs(first_area - second_area) - target;

@@ -40,16 +40,16 @@ class PolarWarp {
     };
     /// The points where a meridian crosses two arcs.
     struct Crossing {
-        Vec2 r_squared, z_squared; ///< of the first and the second arc
+        Vec2 r_squared, z_squared; ///< values of the first and the second arc
         double difference;         ///< r_squared.x - r_squared.y, without cancellation
     };
     /// The part of the triangle between two meridians, of which the first goes through a vertex,
     /// the apex. Azimuths are (cos, sin) of the angle from the apex.
     struct Sector {
         Vec2 axis{1, 0}, across{0, 1};
-        double rho = 0, height = 1; ///< of the apex
+        double rho = 0, height = 1; ///< place of the apex
         Arc first, second;          ///< the second is unused in a fan
-        double range = 0;           ///< of the azimuth [rad]
+        double range = 0;           ///< range of the azimuth [rad]
         double area = 0;
 
         [[nodiscard]] Vec2 azimuth_of(const Vec3& direction) const;

@@ -49,14 +49,14 @@ class SphericalTriangle {
     [[nodiscard]] double reach(std::size_t edge, Vec2 towards) const;
 
     std::array<Vec3, 3> vertex_{};
-    std::array<Vec3, 3> normal_{}; ///< of the planes of the edges, unit, inwards
+    std::array<Vec3, 3> normal_{}; ///< unit normals of the planes of the edges, inwards
     Hull hull_;
 };
 
 template <class Uniform>
 Vec3 SphericalTriangle::sample_rejection(Uniform&& uniform) const {
-    constexpr int most_tries = 64;
-    for (int i = 0; i < most_tries; ++i) {
+    constexpr int max_tries = 64;
+    for (int i = 0; i < max_tries; ++i) {
         const double u = uniform(), v = uniform();
         // The second half is folded onto the first, without branches, which the processor would
         // mispredict.

@@ -14,7 +14,7 @@ namespace hemilux {
 namespace {
 
 /// The most bytes of one message, as MPI counts with int.
-constexpr std::size_t most_bytes = std::size_t{1} << 30;
+constexpr std::size_t max_bytes = std::size_t{1} << 30;
 
 /// The ranks of MPI, which ends the program where one of its calls fails.
 class RanksByMpi final : public Ranks {
@@ -37,7 +37,7 @@ class RanksByMpi final : public Ranks {
   private:
     void do_gather(std::span<const std::size_t> sizes, std::span<std::byte> all) const override {
         const bool of_one = std::ranges::find(sizes, all.size()) != sizes.end();
-        if (of_one || all.size() > most_bytes)
+        if (of_one || all.size() > max_bytes)
             return gather_in_turn(sizes, all);
         std::vector<int> counts, places;
         for (const std::size_t size : sizes) {
@@ -78,8 +78,8 @@ class RanksByMpi final : public Ranks {
 
     template <class Byte, class Body>
     static void for_messages(std::span<Byte> bytes, const Body& body) {
-        for (std::size_t at = 0; at < bytes.size(); at += most_bytes)
-            body(&bytes[at], static_cast<int>(std::min(most_bytes, bytes.size() - at)));
+        for (std::size_t at = 0; at < bytes.size(); at += max_bytes)
+            body(&bytes[at], static_cast<int>(std::min(max_bytes, bytes.size() - at)));
     }
 
     int count_ = 1, index_ = 0;

@@ -100,7 +100,7 @@ class Ranks {
 class OwnBlocks {
   public:
     /// All blocks but the last are multiples of this, unless their length is given.
-    static constexpr std::size_t least_block = 64;
+    static constexpr std::size_t min_block = 64;
     /// Divides the items; the ranks outlive this.
     OwnBlocks(const Ranks& ranks, std::size_t items)
         : OwnBlocks(ranks, items, usual_block(items / ranks.count())) {}
@@ -144,7 +144,7 @@ class OwnBlocks {
     /// than 16 times the least. What follows in memory is read faster.
     static std::size_t usual_block(std::size_t items_of_rank) {
         constexpr std::size_t enough = 64;
-        return least_block * std::clamp<std::size_t>(items_of_rank / (enough * least_block), 1, 16);
+        return min_block * std::clamp<std::size_t>(items_of_rank / (enough * min_block), 1, 16);
     }
     void gather_bytes(std::span<std::byte> all, std::size_t bytes_each) const;
     void gather_rounds(std::span<std::byte> some, std::size_t bytes_of_block) const;

@@ -58,14 +58,14 @@ TEST_CASE("The matrix of a hundred white rooms in a row is solved") {
     for (std::uint32_t i = 0; i < n; ++i)
         leaving[i] = model.mesh.material(i).emission.x + white * light.incident[i].x;
     f.multiply(leaving, arriving, workers);
-    double most_off = 0, least = INFINITY;
+    double max_off = 0, least = INFINITY;
     for (std::size_t i = 0; i < n; ++i) {
-        most_off = std::max(most_off, std::abs(arriving[i] - light.incident[i].x));
+        max_off = std::max(max_off, std::abs(arriving[i] - light.incident[i].x));
         least = std::min(least, light.incident[i].x);
     }
-    CAPTURE(most_off, least);
+    CAPTURE(max_off, least);
     CHECK(least > 0);
-    CHECK(most_off / (1 - white) < 1e-4 * least); // rows sum to 1 at most: a bound of the error
+    CHECK(max_off / (1 - white) < 1e-4 * least); // rows sum to 1 at most: a bound of the error
 }
 
 TEST_CASE("Stored transport solves a hundred white rooms in a row") {

@@ -93,8 +93,8 @@ TEST_CASE("A channel too faint for squares is refused, and one at the limit is s
     scene.materials[3].emission = Vec3(1, 1e-150, 0);
     check_refused(scene, {"the emission of patch", "'lamp'", "largest of its channel"});
     const double limit = std::ldexp(1, -480); // a power of two: the same digits
-    REQUIRE(limit > least_radiosity);
-    REQUIRE(limit / 8 < least_radiosity);
+    REQUIRE(limit > min_radiosity);
+    REQUIRE(limit / 8 < min_radiosity);
     const Model bright(test::cube_with_lit_floor(2, .5));
     Scene faint_scene = test::cube_with_lit_floor(2, .5);
     faint_scene.materials[1].emission *= limit;

@@ -137,7 +137,7 @@ RelativeError error_of(const Mesh& mesh, const Solution& s, const std::vector<Ve
 
 TEST_CASE("Two rooms joined by a slit", "[slow]") {
     std::vector<double> f;
-    for (const auto& [rho, most_in_the_dark] : {std::pair{.5, .3}, {.9, .1}, {.99, .15}}) {
+    for (const auto& [rho, max_in_the_dark] : {std::pair{.5, .3}, {.9, .1}, {.99, .15}}) {
         const Model model(two_rooms(rho));
         REQUIRE(model.mesh.patches().size() == 2 * patches_a_room);
         if (f.empty())
@@ -157,6 +157,6 @@ TEST_CASE("Two rooms joined by a slit", "[slow]") {
         const RelativeError off = error_of(model.mesh, s, right);
         CAPTURE(rho, s.rays_energy, off.all, off.detail);
         CHECK(off.all < .01);
-        CHECK(off.detail < most_in_the_dark);
+        CHECK(off.detail < max_in_the_dark);
     }
 }

@@ -11,13 +11,13 @@ namespace {
 
 constexpr double epsilon = 1e-15;
 constexpr double tiny = 1e-300;
-constexpr int most_terms = 100000;
+constexpr int max_terms = 100000;
 
 /// Regularised lower incomplete gamma function P(a, x) by its series, for x < a + 1
 /// (Abramowitz and Stegun 6.5.29).
 double gamma_series(double a, double x) {
     double term = 1 / a, sum = term;
-    for (int n = 1; n < most_terms && term > sum * epsilon; ++n)
+    for (int n = 1; n < max_terms && term > sum * epsilon; ++n)
         sum += term *= x / (a + n);
     return sum * std::exp(a * std::log(x) - x - std::lgamma(a));
 }
@@ -26,7 +26,7 @@ double gamma_series(double a, double x) {
 template <class Next>
 double continued_fraction(double b0, Next&& next) {
     double f = b0 == 0 ? tiny : b0, c = f, d = 0;
-    for (int n = 1; n < most_terms; ++n) {
+    for (int n = 1; n < max_terms; ++n) {
         const auto [a, b] = next(n);
         d = b + a * d;
         c = b + a / c;

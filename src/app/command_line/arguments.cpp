@@ -118,7 +118,7 @@ CommandText described(const CLI::App& command) {
 /// Breaks the descriptions of options and methods, which stand in a column of their own, before
 /// column 80. All other lines stay, as commands are copied from them.
 std::string wrapped(const std::string& help) {
-    constexpr std::size_t width = 80, least_column = 20, default_column = 30;
+    constexpr std::size_t width = 80, min_column = 20, default_column = 30;
     std::istringstream lines(help);
     std::string text;
     for (std::string line; std::getline(lines, line);) {
@@ -127,7 +127,7 @@ std::string wrapped(const std::string& help) {
             const std::size_t gap = line.substr(0, column).rfind("  ");
             column = gap == std::string::npos ? 0 : line.find_first_not_of(' ', gap);
         }
-        while (line.size() > width && column >= least_column && column <= default_column) {
+        while (line.size() > width && column >= min_column && column <= default_column) {
             std::size_t end = line.rfind(' ', width);
             if (end <= column)
                 end = line.find(' ', width);

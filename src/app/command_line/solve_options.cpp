@@ -89,7 +89,7 @@ void add_output_options(Command command, SolveSettings& settings) {
         "arrives, for viewers with textures of their own; indirect: of that what was reflected "
         "before, for viewers that light by lamps, too [radiosity]");
     add_whole<int>(
-        command, "--lightmap", settings.lightmap, 16, SolveSettings::most_lightmap,
+        command, "--lightmap", settings.lightmap, 16, SolveSettings::max_lightmap,
         "beside .glb files the same light as a picture NAME.lightmap.exr of N x N texels, "
         "linear floats, for the texture coordinates TEXCOORD_1");
     add_choice(command, "--ply-colours", settings.ply_colours,
@@ -105,7 +105,7 @@ void add_point_options(Command command, SolveSettings& settings) {
     command.add_text("--points-output", "FILE", settings.points.output,
                      "CSV table of --points: irradiance, radiosity, standard error");
     add_whole<unsigned>(
-        command, "--gather", settings.gather, 1, SolveSettings::most_gather,
+        command, "--gather", settings.gather, 1, SolveSettings::max_gather,
         "rays that gather light at a point of a picture, more at edges; at one of --points 256 "
         "times as many [16]");
     command.add_action(

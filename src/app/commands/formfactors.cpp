@@ -27,8 +27,8 @@ namespace {
 bool is_dense(const std::string& path) { return extension_of(path) == ".npy"; }
 
 void check_size(const FormFactorSettings& settings, std::size_t patches) {
-    if (patches > settings.most_dense && std::ranges::any_of(settings.outputs, is_dense))
-        throw UsageError("a dense .npy matrix is for up to " + grouped(settings.most_dense) +
+    if (patches > settings.max_dense && std::ranges::any_of(settings.outputs, is_dense))
+        throw UsageError("a dense .npy matrix is for up to " + grouped(settings.max_dense) +
                          " patches, not " + grouped(patches) + "; write .csv instead");
     const Method* const same = &method_of(Role::reference);
     check_own_options(settings.options, {&same, 1}, patches);

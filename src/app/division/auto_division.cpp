@@ -27,20 +27,20 @@ constexpr double first_sampling_of_gathered = .05, sampling_of_gathered = .4;
 
 /// A goal is set lower by a factor in this range, with some room. Where light is gathered, finding
 /// the error costs more than patches do, so steps are few and large.
-constexpr double safe = .9, least_step = .5, most_step = .9, least_step_of_gathered = .3,
-                 most_step_of_gathered = .6;
+constexpr double safe = .9, min_step = .5, max_step = .9, min_step_of_gathered = .3,
+                 max_step_of_gathered = .6;
 
 /// An error of gathered light, over that asked for, that need not be known better.
 constexpr double negligible_when_reported = .05;
 
 /// The number of times that the division goes on where the whole error is still too large.
-constexpr unsigned most_attempts = 8;
+constexpr unsigned max_attempts = 8;
 
 /// Rays to find out the error of the division where patches were divided by rays. They are at most
 /// one in so many of all before. But so many are always worth it, the more so where all light is
 /// gathered and little else is traced.
-constexpr std::uint64_t share_of_divided = 5, least_rays_of_error = 400'000,
-                        least_rays_of_gathered = 4'000'000;
+constexpr std::uint64_t share_of_divided = 5, min_rays_of_error = 400'000,
+                        min_rays_of_gathered = 4'000'000;
 
 std::string round_text(const DivisionRound& round) {
     return "division: " + counted(round.patches, "patch", "patches") + ", within them the light " +
@@ -80,11 +80,11 @@ class AutoDivision {
     [[nodiscard]] bool is_enough(double sampling);
     void measure_at_first();
     void measure_again(DivisionErrorOptions options);
-    [[nodiscard]] bool is_confirmed(std::uint64_t most_rays, double sampling,
+    [[nodiscard]] bool is_confirmed(std::uint64_t max_rays, double sampling,
                                     std::span<const double> square);
     [[nodiscard]] std::uint64_t rays_of_error(std::uint64_t before) const {
         return std::max(before / share_of_divided,
-                        is_gathered_ ? least_rays_of_gathered : least_rays_of_error);
+                        is_gathered_ ? min_rays_of_gathered : min_rays_of_error);
     }
     [[nodiscard]] bool is_over() const {
         return input_.monitor.interrupted || divided_.rough.steps == 0;
@@ -157,15 +157,15 @@ void AutoDivision::begin_gathered() {
 /// theirs.
 void AutoDivision::lower_goals() {
     const double step = std::sqrt(safe * whole_ / measured()); // not a number where it is unknown
-    options_.error *= step > least_step_of_gathered ? std::min(step, most_step_of_gathered)
-                                                    : least_step_of_gathered;
+    options_.error *=
+        step > min_step_of_gathered ? std::min(step, max_step_of_gathered) : min_step_of_gathered;
     divided_.sampling = sampling_of_gathered * whole_;
 }
 
 /// Returns whether it is enough. What is left is aimed at with some room, as what was found is
 /// known to a tenth.
 bool AutoDivision::is_enough(double sampling) {
-    constexpr double least_sampling = .6;
+    constexpr double min_sampling = .6;
     if (is_gathered_) {
         if (measured() <= whole_)
             return true;
@@ -178,19 +178,19 @@ bool AutoDivision::is_enough(double sampling) {
     const auto left = [&](double other) {
         return safe * std::sqrt(std::max(whole_ * whole_ - other * other, 0.0));
     };
-    divides_ = left(division) < least_sampling * *divided_.sampling;
+    divides_ = left(division) < min_sampling * *divided_.sampling;
     if (divides_)
-        options_.error *= std::clamp(left(sampling) / division, least_step, most_step);
+        options_.error *= std::clamp(left(sampling) / division, min_step, max_step);
     else
-        divided_.sampling = std::min(left(division), most_step * *divided_.sampling);
+        divided_.sampling = std::min(left(division), max_step * *divided_.sampling);
     return false;
 }
 
 /// Confirms an error, as the first of several errors to be small enough errs low.
-bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
+bool AutoDivision::is_confirmed(std::uint64_t max_rays, double sampling,
                                 std::span<const double> square) {
     const DivisionErrorOptions options{
-        .most_rays = most_rays,
+        .max_rays = max_rays,
         .negligible = is_gathered_ ? resolved_gathered_error(settings_) : sampling / 2,
         .square = square};
     measure(options);
@@ -204,7 +204,7 @@ bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
 /// found out better even where it is negligible.
 void AutoDivision::measure_again(DivisionErrorOptions options) {
     constexpr unsigned more_rays = 4;
-    options.most_rays *= more_rays;
+    options.max_rays *= more_rays;
     if (is_gathered_)
         options.negligible = negligible_when_reported * whole_;
     measure(options);
@@ -214,7 +214,7 @@ void AutoDivision::measure_again(DivisionErrorOptions options) {
 /// nothing is divided.
 void AutoDivision::measure_at_first() {
     const DivisionErrorOptions options{
-        .most_rays = rays_of_error(0),
+        .max_rays = rays_of_error(0),
         .negligible = (is_gathered_ ? negligible_when_reported : share_of_division) * whole_};
     measure(options);
     if (!is_gathered_ || is_over() || !(divided_.spread->error <= safe * whole_))
@@ -237,15 +237,15 @@ void AutoDivision::divide_once(Division& division) {
 
 void AutoDivision::divide_until_enough() {
     Division division(mesh_, input_.tracer, options_, input_.monitor);
-    const std::uint64_t most_rays =
+    const std::uint64_t max_rays =
         settings_.stop.rays.value_or(default_max_rays(mesh_.patches().size()));
-    for (unsigned attempt = 0; attempt < most_attempts; ++attempt) {
+    for (unsigned attempt = 0; attempt < max_attempts; ++attempt) {
         if (divides_)
             divide_once(division);
         if (is_over())
             break;
         StopRule stop;
-        stop.rays = most_rays;
+        stop.rays = max_rays;
         run_to(*divided_.sampling, stop);
         if (is_over())
             break;
@@ -255,7 +255,7 @@ void AutoDivision::divide_until_enough() {
         const bool is_aimed_at = sampling <= *divided_.sampling; // else by rays or steps
         const bool done =
             is_confirmed(rays_of_error(rays), sampling, division.squares()) || !is_aimed_at;
-        if (is_over() || done || rays + statistics_.rays_division_error > most_rays)
+        if (is_over() || done || rays + statistics_.rays_division_error > max_rays)
             break;
         division.doubt();
     }
@@ -276,7 +276,7 @@ Divided AutoDivision::divide() {
         const double spread = divided_.spread->error;
         divided_.linear = spread > safe * whole_;
         // Less than half of what is off is not worth its rays, where it is not divided.
-        const bool stays = divided_.linear && (mesh_.patches().size() >= options_.most_patches ||
+        const bool stays = divided_.linear && (mesh_.patches().size() >= options_.max_patches ||
                                                (is_large_ && spread <= error_of_large_models));
         divided_.sampling = std::max(sampling_of_gathered * whole_, stays ? .5 * spread : 0);
         divided_.linear = divided_.linear && !stays;

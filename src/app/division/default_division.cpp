@@ -12,12 +12,12 @@ namespace {
 constexpr std::uint64_t bytes_of_patch = 16'384;
 
 /// The most patches with which large models are still divided.
-constexpr std::size_t most_patches_of_large_models = 200'000;
+constexpr std::size_t max_patches_of_large_models = 200'000;
 
 } // namespace
 
 bool is_large_by_default(const SolveSettings& settings, std::size_t patches) {
-    return !settings.divide_given && patches >= most_patches_by_default;
+    return !settings.divide_given && patches >= max_patches_by_default;
 }
 
 AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches) {
@@ -25,22 +25,22 @@ AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches)
                               .seed = settings.options.seed,
                               .threads = settings.options.threads};
     if (is_large_by_default(settings, patches))
-        division.most_patches =
-            patches + (patches < most_patches_of_large_models ? most_patches_by_default : 0);
+        division.max_patches =
+            patches + (patches < max_patches_of_large_models ? max_patches_by_default : 0);
     else if (!settings.divide_given)
-        division.most_patches = most_patches_by_default;
+        division.max_patches = max_patches_by_default;
     if (settings.scene.memory) {
         division.memory = *settings.scene.memory / 2;
-        division.most_patches =
+        division.max_patches =
             std::clamp<std::size_t>(*settings.scene.memory / bytes_of_patch, patches,
-                                    std::max(patches, division.most_patches));
+                                    std::max(patches, division.max_patches));
     }
     return division;
 }
 
 bool divides_by_default(const SolveSettings& settings, std::size_t patches) {
     return !settings.divide_given &&
-           (patches < most_patches_by_default || gives_gathered_light(settings)) &&
+           (patches < max_patches_by_default || gives_gathered_light(settings)) &&
            settings.method == &method_of(Role::standard) && !settings.plain &&
            settings.scene.mesh.max_edge == 0 && settings.target.names().empty() &&
            !settings.stop.steps && !settings.every_step && settings.reference.empty() &&

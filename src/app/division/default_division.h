@@ -12,7 +12,7 @@ namespace hemilux {
 
 /// The most patches that a division makes where it was not asked for: some hundred megabytes, some
 /// seconds. Models that have as many are large.
-inline constexpr std::size_t most_patches_by_default = 20'000;
+inline constexpr std::size_t max_patches_by_default = 20'000;
 /// The relative error to which large models are divided [-]. They are divided only where gathered
 /// light would be wrong by more than this.
 inline constexpr double error_of_large_models = .05;

@@ -11,7 +11,7 @@
 namespace hemilux {
 
 std::optional<double> error_within_patches(const Mesh& mesh, const Tracer& tracer) {
-    if (mesh.patches().empty() || mesh.patches().size() > most_patches_by_default)
+    if (mesh.patches().empty() || mesh.patches().size() > max_patches_by_default)
         return {};
     try {
         Monitor monitor;

@@ -92,8 +92,8 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
     const Stopwatch watch;
     const Workers workers(settings.options.threads);
     DivisionErrorOptions options{
-        .most_rays = (solution.rays_energy + solution.rays_density + statistics.rays_divide) /
-                     share_of_rays};
+        .max_rays = (solution.rays_energy + solution.rays_density + statistics.rays_divide) /
+                    share_of_rays};
     if (is_gathered && !spread) {
         options.seed = hash_words({settings.options.seed, 5});
         options.negligible = resolved_gathered_error(settings);

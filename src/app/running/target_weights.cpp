@@ -14,13 +14,13 @@ namespace hemilux {
 namespace {
 
 /// The pixels of the picture that stand for all, along its longer side; and the rays from each.
-constexpr double most_pixels = 128;
+constexpr double max_pixels = 128;
 constexpr unsigned rays_of_pixel = 4;
 
 std::vector<double> weights_of_camera(const SolveSettings& settings, const Mesh& mesh,
                                       const Tracer& tracer) {
     const auto [width, height] = settings.view.size;
-    const double share = std::min(1.0, most_pixels / std::max(width, height));
+    const double share = std::min(1.0, max_pixels / std::max(width, height));
     const auto columns = static_cast<int>(std::ceil(share * width));
     const auto rows = static_cast<int>(std::ceil(share * height));
     const CameraRays camera(*settings.view.camera, mesh, static_cast<double>(width) / height);

@@ -79,10 +79,10 @@ void check_plain(const SolveSettings& settings) {
 
 void check_plain(const SolveSettings& settings, std::size_t patches) {
     const Method& method = *settings.method;
-    if (settings.plain && patches > method.most_plain_patches)
+    if (settings.plain && patches > method.max_plain_patches)
         throw UsageError("--plain --method " + std::string(method.name) +
                          " keeps all pairs of patches: it is for up to " +
-                         grouped(method.most_plain_patches) + " patches, not " + grouped(patches));
+                         grouped(method.max_plain_patches) + " patches, not " + grouped(patches));
 }
 
 } // namespace hemilux

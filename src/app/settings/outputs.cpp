@@ -73,9 +73,9 @@ namespace {
 /// Returns whether a name is like room-0012.png of room.png: the stem with a dash, digits, the
 /// extension.
 bool has_step_name(std::string_view name, std::string_view stem, std::string_view extension) {
-    constexpr std::size_t least_digits = 4;
+    constexpr std::size_t min_digits = 4;
     if (!name.starts_with(stem) || !name.ends_with(extension) ||
-        name.size() < stem.size() + extension.size() + least_digits)
+        name.size() < stem.size() + extension.size() + min_digits)
         return false;
     name.remove_prefix(stem.size());
     name.remove_suffix(extension.size());

@@ -107,8 +107,8 @@ struct SolveSettings {
     PointSettings points;
     TargetSettings target;
     unsigned gather = default_gather; ///< rays at a point of a surface that a picture shows
-    static constexpr unsigned default_gather = 16, most_gather = 1024;
-    static constexpr int most_lightmap = 16384;
+    static constexpr unsigned default_gather = 16, max_gather = 1024;
+    static constexpr int max_lightmap = 16384;
     /// The number of rays from a patch for each ray of --gather, where the indirect light is baked.
     static constexpr unsigned bake_rays_per_gather_ray = 64;
     bool gather_pictures = true; ///< else they interpolate the light of the patches
@@ -178,7 +178,7 @@ struct FormFactorSettings {
     std::vector<GivenOption> given; ///< options and their values
     Verbosity verbosity = Verbosity::normal;
 
-    static constexpr std::size_t most_dense = 20'000; ///< patches
+    static constexpr std::size_t max_dense = 20'000; ///< patches
 };
 
 struct InfoSettings {

@@ -33,9 +33,9 @@ void log_path(Verbosity wanted, Verbosity least, const std::string& verb, const 
 }
 
 void log_warnings(Verbosity wanted, const std::vector<std::string>& warnings) {
-    constexpr std::size_t most_warnings = 10;
-    const bool all = wanted == Verbosity::verbose || warnings.size() <= most_warnings;
-    const std::size_t shown = all ? warnings.size() : most_warnings;
+    constexpr std::size_t max_warnings = 10;
+    const bool all = wanted == Verbosity::verbose || warnings.size() <= max_warnings;
+    const std::size_t shown = all ? warnings.size() : max_warnings;
     for (std::size_t i = 0; i < shown; ++i)
         log_line(wanted, Verbosity::normal, "warning: " + warnings[i]);
     if (!all)

@@ -12,7 +12,7 @@ namespace hemilux {
 
 namespace {
 
-constexpr std::size_t most_columns = 80;
+constexpr std::size_t max_columns = 80;
 
 std::size_t columns(std::string_view text) {
     return static_cast<std::size_t>(std::ranges::count_if(
@@ -102,11 +102,11 @@ std::size_t terminal_columns(int descriptor) {
     if (isatty(descriptor) == 0)
         return 0;
     const bool known = ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    return known ? size.ws_col : most_columns;
+    return known ? size.ws_col : max_columns;
 }
 
 std::string message_for(int descriptor, std::string_view text, std::size_t indent) {
-    const std::size_t width = std::min(terminal_columns(descriptor), most_columns);
+    const std::size_t width = std::min(terminal_columns(descriptor), max_columns);
     const std::string message = printable_message(text);
     return width > 0 ? wrapped(message, width, indent) : message;
 }

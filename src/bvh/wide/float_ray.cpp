@@ -9,8 +9,8 @@ namespace {
 /// In the box tests, a component of a direction that is smaller than this is replaced by it. The
 /// ray then strays by far less than the boxes are widened by, and no slab's plane gives 0 times
 /// infinity.
-constexpr double least_slope = 1e-18;
-constexpr double too_far = 0x1p20; ///< in sizes of the scene
+constexpr double min_slope = 1e-18;
+constexpr double too_far = 0x1p20; ///< distance in sizes of the scene
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -43,7 +43,7 @@ bool is_unit_and_near(const Ray& ray, const Space& space) {
 
 void set_component(FloatRay& ray, int i, double start, double direction) {
     const double d =
-        std::abs(direction) < least_slope ? std::copysign(least_slope, direction) : direction;
+        std::abs(direction) < min_slope ? std::copysign(min_slope, direction) : direction;
     ray.origin[i] = static_cast<float>(start);
     ray.direction[i] = static_cast<float>(direction);
     ray.inverse[i] = 1.0f / static_cast<float>(d);

@@ -21,7 +21,7 @@ struct Space {
 enum class Fit {
     good,
     misses, ///< certainly, or it is no ray at all
-    too_far ///< from so far away that even doubles round coarsely: every facet is tried
+    too_far ///< origin so far away that even doubles round coarsely: every facet is tried
 };
 
 [[nodiscard]] Fit scale_ray(const Ray& ray, const Space& space, FloatRay& scaled);

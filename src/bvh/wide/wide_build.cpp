@@ -59,7 +59,7 @@ class Builder {
     struct Job {
         Range range;
         unsigned depth;
-        std::uint32_t node, child; ///< of the upper tree, where it hangs
+        std::uint32_t node, child; ///< place in the upper tree where it hangs
     };
 
     void find_bounds(Built& built) {
@@ -244,15 +244,15 @@ class Builder {
         const Vec3 second = glm::cross(p[2] - p[0], p[3] - p[0]);
         const double a = glm::length(first), b = glm::length(second);
         const double angle = glm::length(glm::cross(first, second)) / (a * b);
-        const auto least_error = [](const Vec3& e1, const Vec3& e2) { // over all origins
+        const auto min_error = [](const Vec3& e1, const Vec3& e2) { // over all origins
             const Vec3 e = glm::max(glm::abs(e1), glm::abs(e2));
             const double longest = std::max({e.x, e.y, e.z});
             return error_share * longest * (longest + error_offset);
         };
         constexpr double longest_direction = 1.75, small = .05;
         const bool hit_by_undecided_rays_only =
-            longest_direction * angle * a <= 2 * least_error(p[1] - p[0], p[2] - p[0]) &&
-            longest_direction * angle * b <= 2 * least_error(p[2] - p[0], p[3] - p[0]);
+            longest_direction * angle * a <= 2 * min_error(p[1] - p[0], p[2] - p[0]) &&
+            longest_direction * angle * b <= 2 * min_error(p[2] - p[0], p[3] - p[0]);
         return !(glm::dot(first, second) > 0 && angle < small && hit_by_undecided_rays_only);
     }
 

@@ -17,7 +17,7 @@ namespace hemilux::wide {
 struct Built {
     HugeArray<Node> nodes;            ///< none: the only leaf is the root
     HugeArray<Leaf> leaves;           ///< none: nothing to hit
-    Box bounds{Vec3(0.0), Vec3(0.0)}; ///< of all facets, in the soup's units
+    Box bounds{Vec3(0.0), Vec3(0.0)}; ///< box of all facets, in the soup's units
     BvhQuality quality;
 };
 

@@ -10,7 +10,7 @@
 namespace hemilux {
 
 struct WideBvhOptions {
-    unsigned threads = 0;  ///< that build the tree; 0: one per core
+    unsigned threads = 0;  ///< threads that build the tree; 0: one per core
     bool hierarchy = true; ///< false: up to eight triangles are tested at once, no boxes
     InstructionSet kernels = chosen_instruction_set();
 };

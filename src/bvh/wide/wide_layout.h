@@ -54,7 +54,7 @@ inline constexpr unsigned stack_size = (width - 1) * max_depth + 1;
 /// fills a line of the cache.
 struct alignas(64) FloatRay {
     float origin[3], direction[3];
-    float inverse[3];            ///< of the direction, never infinite
+    float inverse[3];            ///< inverse direction, never infinite
     float t_min_low, t_min_high; ///< certain bounds
     std::uint32_t from;
     double skipped, per_unit; ///< the kernels' t is (t - skipped) * per_unit

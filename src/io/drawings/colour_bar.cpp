@@ -18,8 +18,8 @@ std::vector<BarMark> round_marks(double most) {
     if (!(most > 0))
         return {{0, tick_text(0)}};
     std::vector<BarMark> marks;
-    constexpr double most_steps = 8;
-    const double step = round_up(most / most_steps);
+    constexpr double max_steps = 8;
+    const double step = round_up(most / max_steps);
     constexpr double rounding = 1 + 1e-9;
     for (int i = 0; i * step <= most * rounding; ++i)
         marks.push_back({i * step / most, tick_text(i * step)});

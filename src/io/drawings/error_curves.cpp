@@ -16,7 +16,7 @@ double interpolate(double x0, double y0, double x1, double y1, double x) {
     return y0 * std::pow(y1 / y0, share);
 }
 
-double least_error(const ErrorCurve& curve) {
+double min_error(const ErrorCurve& curve) {
     return std::ranges::min_element(curve, {}, &CurvePoint::error)->error;
 }
 
@@ -102,7 +102,7 @@ std::optional<double> speed_up(std::span<const ErrorCurve> runs,
         std::vector<double> errors;
         for (const ErrorCurve& curve : curves)
             if (!curve.empty())
-                errors.push_back(least_error(curve));
+                errors.push_back(min_error(curve));
         return geometric_mean(errors);
     };
     // Rounding of logarithms must not put it below the only run that there is.

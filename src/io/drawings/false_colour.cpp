@@ -13,7 +13,7 @@ namespace hemilux {
 namespace {
 
 constexpr double within_scale = 0.99;
-constexpr double least_scale = 1e-6;  ///< where pictures do not differ
+constexpr double min_scale = 1e-6;    ///< where pictures do not differ
 constexpr double rounding = 1 + 1e-6; ///< of floats
 
 /// One side of the scale, from white outwards.
@@ -34,10 +34,10 @@ double scale_of(const std::vector<float>& difference) {
         if (std::isfinite(d) && d != 0) // not the background
             sizes.push_back(std::abs(d));
     if (sizes.empty())
-        return least_scale;
+        return min_scale;
     const auto rank = static_cast<std::ptrdiff_t>(within_scale * double(sizes.size() - 1));
     std::ranges::nth_element(sizes, sizes.begin() + rank);
-    return std::max(least_scale, double(sizes[static_cast<std::size_t>(rank)]));
+    return std::max(min_scale, double(sizes[static_cast<std::size_t>(rank)]));
 }
 
 /// Returns positive differences to mark on the bar: both ends of the logarithmic part and its

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Colour edge_ink{90, 90, 90}, white{255, 255, 255};
 constexpr double side_elevation = 20, side_azimuth = 28; // degrees
-constexpr std::size_t most_labels = 150;                 // the vertices of depth 3 fit
+constexpr std::size_t max_labels = 150;                  // the vertices of depth 3 fit
 constexpr double label_size = 14, title_size = 17;
 
 /// A parallel projection of the unit sphere.
@@ -155,12 +155,12 @@ void draw_parts(std::span<const HemisphereDrawing::Part> parts, const DomeView& 
 
 void draw_counts(const HemisphereDrawing& drawing, const DomeView& view, bool labels,
                  Canvas& canvas) {
-    const double radius = drawing.counts.size() > most_labels ? 1.2 : 2.6;
+    const double radius = drawing.counts.size() > max_labels ? 1.2 : 2.6;
     for (const CountedDirection& count : drawing.counts) {
         if (view.sees(count.direction))
             draw_dot(view.place(count.direction), radius, ink, canvas);
     }
-    if (!labels || drawing.counts.size() > most_labels)
+    if (!labels || drawing.counts.size() > max_labels)
         return;
     constexpr double size = 11, digit = 6.2;
     for (const CountedDirection& count : drawing.counts) {
@@ -188,7 +188,7 @@ void draw_captions(const HemisphereDrawing& drawing, Canvas& canvas) {
     canvas.text({centre_side.x, 68},
                 drawing.parts.empty() ? "from the side" : "over each part of the patch", middle);
     std::string legend = "dots: density rays, with the surfaces counted";
-    if (drawing.counts.size() > most_labels)
+    if (drawing.counts.size() > max_labels)
         legend = "dots: density rays";
     if (drawing.counts.empty())
         legend = "";

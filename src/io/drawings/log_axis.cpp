@@ -9,10 +9,10 @@ namespace hemilux {
 
 namespace {
 
-constexpr double least_ratio = 4;     ///< of the ends of an axis
+constexpr double min_ratio = 4;       ///< of the ends of an axis
 constexpr double margin_share = 0.04; ///< at each end, as a share of the range
 constexpr double decades_for_all = 2; ///< longer axes have labels at powers of ten alone
-constexpr double most_tick_labels = 7;
+constexpr double max_tick_labels = 7;
 
 } // namespace
 
@@ -25,8 +25,8 @@ LogAxis::LogAxis(const std::vector<double>& numbers) {
         high_ = any ? std::max(high_, x) : x;
         any = true;
     }
-    if (high_ < least_ratio * low_) {
-        const double widen = std::sqrt(least_ratio * low_ / high_);
+    if (high_ < min_ratio * low_) {
+        const double widen = std::sqrt(min_ratio * low_ / high_);
         low_ /= widen;
         high_ *= widen;
     }
@@ -41,7 +41,7 @@ std::vector<LogTick> LogAxis::ticks() const {
     const int first = static_cast<int>(std::floor(std::log10(low_)));
     const int last = static_cast<int>(std::floor(std::log10(high_)));
     const double decades = std::log10(high_ / low_);
-    const int every = std::max(1, static_cast<int>(std::ceil(decades / most_tick_labels)));
+    const int every = std::max(1, static_cast<int>(std::ceil(decades / max_tick_labels)));
     std::vector<LogTick> result;
     for (int decade = first; decade <= last; ++decade)
         for (const int digit : {1, 2, 5}) {

@@ -63,6 +63,9 @@ LogAxis x_axis(const Panel& panel) {
     std::vector<double> numbers;
     for (const MeanCurve& curve : panel.curves)
         numbers.insert(numbers.end(), curve.x.begin(), curve.x.end());
+    for (const std::vector<Dot>& dots : panel.dots)
+        for (const Dot& dot : dots)
+            numbers.push_back(dot.x);
     return LogAxis(numbers);
 }
 
@@ -74,6 +77,10 @@ LogAxis y_axis(const Chart& chart) {
             numbers.insert(numbers.end(), curve.low.begin(), curve.low.end());
             numbers.insert(numbers.end(), curve.high.begin(), curve.high.end());
         }
+    for (const Panel& panel : chart.panels)
+        for (const std::vector<Dot>& dots : panel.dots)
+            for (const Dot& dot : dots)
+                numbers.push_back(dot.y);
     if (!numbers.empty())
         numbers.push_back(std::ranges::min(numbers) / 1.5); // for the guide
     return LogAxis(numbers);

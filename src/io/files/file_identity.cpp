@@ -10,10 +10,10 @@ namespace hemilux {
 namespace fs = std::filesystem;
 
 std::string creation_path(const std::string& path) {
-    constexpr int most_links = 40; // as many as Linux follows
+    constexpr int max_links = 40; // as many as Linux follows
     std::error_code error;
     fs::path at(path);
-    for (int links = 0; links < most_links && !fs::exists(at, error); ++links) {
+    for (int links = 0; links < max_links && !fs::exists(at, error); ++links) {
         const fs::path target = fs::read_symlink(at, error);
         if (error)
             return at.string();

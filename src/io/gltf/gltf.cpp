@@ -18,7 +18,7 @@ namespace gltf {
 namespace {
 
 /// A few nodes may show one mesh very often; no more patches than these can be solved anyway.
-constexpr std::size_t most_triangles = 50'000'000;
+constexpr std::size_t max_triangles = 50'000'000;
 /// Memory that a triangle takes with its corners, while it is read.
 constexpr double bytes_per_triangle = 200;
 /// A material is called a metal from here on.
@@ -95,16 +95,16 @@ void Reader::count_triangles_of_scene() {
             count =
                 std::min(count + std::max<std::size_t>(
                                      count_triangles(primitives[p], buffers_, place_of(m, p)), 1),
-                         most_triangles + 1);
+                         max_triangles + 1);
         of_mesh.push_back(count);
     }
     std::size_t count = 0;
     for (const Instance& instance : instances_)
         if (const Index& mesh = document_.nodes[instance.node].mesh) {
             count += of_mesh[*mesh];
-            if (count > most_triangles)
+            if (count > max_triangles)
                 fail("/nodes/" + std::to_string(instance.node) + "/mesh",
-                     "expected a scene of at most " + std::to_string(most_triangles) +
+                     "expected a scene of at most " + std::to_string(max_triangles) +
                          " triangles and primitives in all");
         }
     if (guard_)

@@ -30,7 +30,7 @@ Neighbours neighbours_of(const Scene& scene) {
 
 /// Returns a number for each facet, the same for those of one plane group.
 std::vector<std::uint32_t> plane_groups(const Mesh& mesh) {
-    const double least_cosine = std::cos(0.5 * std::numbers::pi / 180);
+    const double min_cosine = std::cos(0.5 * std::numbers::pi / 180);
     const std::vector<Facet>& facets = mesh.scene().facets;
     const Neighbours neighbours = neighbours_of(mesh.scene());
     const auto normal = [&](std::uint32_t facet) {
@@ -48,7 +48,7 @@ std::vector<std::uint32_t> plane_groups(const Mesh& mesh) {
             waiting.pop_back();
             for (const std::uint32_t next : neighbours[facet])
                 if (group[next] == none && facets[next].material == facets[seed].material &&
-                    glm::dot(normal(next), plane) > least_cosine) {
+                    glm::dot(normal(next), plane) > min_cosine) {
                     group[next] = seed;
                     waiting.push_back(next);
                 }

@@ -157,14 +157,14 @@ Rating rate(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
 /// Returns whether hardly any view from within the scene's box shows walls all around. Such a scene
 /// is a thing, not a set of rooms.
 bool is_object(std::span<const Camera> cameras, std::span<const Rating> ratings) {
-    constexpr double all_around = 0.8, least_of_rooms = 0.1;
+    constexpr double all_around = 0.8, min_of_rooms = 0.1;
     double enclosed = 0, views = 0;
     for (std::size_t i = 0; i < cameras.size(); ++i)
         if (!is_from_outside(cameras[i])) {
             enclosed += ratings[i].enclosed > all_around;
             views += 1;
         }
-    return enclosed < least_of_rooms * views;
+    return enclosed < min_of_rooms * views;
 }
 
 } // namespace

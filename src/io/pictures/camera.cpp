@@ -59,9 +59,9 @@ Ray CameraRays::ray(double x, double y) const {
 
 std::optional<Visible> look(const Mesh& mesh, const Tracer& tracer, Ray ray) {
     constexpr double same_place = 1e-12; // sheets modelled back to back
-    constexpr std::uint32_t most_backs = 10'000;
+    constexpr std::uint32_t max_backs = 10'000;
     double last = -std::numeric_limits<double>::infinity();
-    for (std::uint32_t backs = 0; backs < most_backs; ++backs) {
+    for (std::uint32_t backs = 0; backs < max_backs; ++backs) {
         const std::optional<Hit> hit = tracer.closest(ray);
         if (!hit)
             return std::nullopt;

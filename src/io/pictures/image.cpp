@@ -34,7 +34,7 @@ class ByteTable {
   public:
     ByteTable() {
         for (std::size_t byte = 0; byte < least_.size(); ++byte)
-            least_[byte] = least_with(static_cast<int>(byte));
+            least_[byte] = min_with(static_cast<int>(byte));
         for (std::uint32_t cell = 0; cell < lowest_.size(); ++cell)
             lowest_[cell] = static_cast<std::uint8_t>(exact(std::bit_cast<float>(cell << shift)));
     }
@@ -54,7 +54,7 @@ class ByteTable {
     static long exact(float linear) { return std::lround(255.0f * srgb_from_linear(linear)); }
     /// Finds the least float that has so large a byte, by bisection of the bits, which grow with
     /// floats.
-    static float least_with(int byte) {
+    static float min_with(int byte) {
         std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(1.0f);
         while (low < high) {
             const std::uint32_t middle = low + (high - low) / 2;

@@ -13,7 +13,7 @@ namespace {
 constexpr double reach_share = .25;
 
 /// A point has neighbours up to this many times their spacing, whatever is near.
-constexpr double least_steps = 2.5;
+constexpr double min_steps = 2.5;
 
 /// Returns the weight of a step within a window. Points at its ends count half, so that the window
 /// is as wide as squares of the sequence of samples.
@@ -85,7 +85,7 @@ void SlowLightField::fit(int stride, const std::function<void()>& check, const W
     grid_.for_each_point(
         workers,
         [&](const GridPoint& here, int x, int y) {
-            const double most = 1 / (least_steps * grid_.spacing(x, y));
+            const double most = 1 / (min_steps * grid_.spacing(x, y));
             const std::size_t number = grid_.number_of(here);
             Fit fit;
             fit.sum = light_[number];

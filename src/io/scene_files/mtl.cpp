@@ -47,10 +47,10 @@ bool names_texture(std::string_view keyword) {
 }
 
 void add_textures(std::string_view rest, std::set<std::string, std::less<>>& names) {
-    constexpr int most_words = 16; // of all options together
+    constexpr int max_words = 16; // of all options together
     rest = name_in(rest);
     const bool has_options = rest.starts_with('-');
-    for (int words = 0; !rest.empty() && words < most_words; ++words) {
+    for (int words = 0; !rest.empty() && words < max_words; ++words) {
         if (!names.contains(rest))
             names.emplace(rest);
         if (!has_options)

@@ -46,7 +46,7 @@ std::size_t check_tables(std::string_view bytes, std::size_t at, std::ptrdiff_t 
 
 /// More scans than these are refused; ten are usual. stb_image walks through all blocks of the size
 /// claimed for each.
-constexpr unsigned most_scans = 100;
+constexpr unsigned max_scans = 100;
 
 /// Goes from marker to marker as stb_image does: what stands between them is data.
 void check_segments(std::string_view bytes, const std::string& place) {
@@ -59,9 +59,9 @@ void check_segments(std::string_view bytes, const std::string& place) {
         const unsigned marker = byte_at(bytes, at++);
         if (marker <= 1 || (marker >= first_restart && marker <= start))
             continue; // has no length
-        if (marker == scan && ++scans > most_scans)
+        if (marker == scan && ++scans > max_scans)
             throw InputError(place, "expected a whole PNG or JPEG picture: it has more than " +
-                                        std::to_string(most_scans) + " scans");
+                                        std::to_string(max_scans) + " scans");
         const std::size_t length = byte_at(bytes, at) << 8 | byte_at(bytes, at + 1);
         if (marker == define_huffman_table)
             at = check_tables(bytes, at + 2, static_cast<std::ptrdiff_t>(length) - 2, place);

@@ -11,10 +11,10 @@ namespace {
 
 /// No picture of the size that its header states takes more bytes while it is unpacked: a small
 /// file may hold gigabytes of zeros.
-thread_local std::size_t most_bytes_unpacked = 0;
+thread_local std::size_t max_bytes_unpacked = 0;
 
 void* bounded_realloc(void* bytes, std::size_t size) {
-    return size <= most_bytes_unpacked ? std::realloc(bytes, size) : nullptr;
+    return size <= max_bytes_unpacked ? std::realloc(bytes, size) : nullptr;
 }
 
 } // namespace
@@ -34,7 +34,7 @@ namespace hemilux {
 namespace {
 
 /// The most texels of a picture: a small file may claim any number.
-constexpr double most_texels = 1 << 26;
+constexpr double max_texels = 1 << 26;
 /// The memory per texel while a picture is decoded: the file's samples, and three bytes each.
 constexpr double bytes_per_texel = 12;
 /// The bytes per texel of a buffer, for the largest samples.
@@ -58,7 +58,7 @@ Size size_of(std::string_view bytes, const std::string& place) {
                               &size.height, &channels) == 0)
         throw InputError(place, "expected a PNG or JPEG picture of at most 16384 x 16384 pixels, "
                                 "its header is broken");
-    if (size.width < 1 || size.height < 1 || size.texels() > most_texels)
+    if (size.width < 1 || size.height < 1 || size.texels() > max_texels)
         throw InputError(place, "expected a picture of at most 67108864 pixels, found " +
                                     std::to_string(size.width) + " x " +
                                     std::to_string(size.height));
@@ -77,7 +77,7 @@ Texture decode_texture(std::string_view bytes, const std::string& place) {
     int channels = 0;
     constexpr int rgb = 3;
     // A picture takes eight bytes a texel at the most, and one a row; buffers grow by doubling.
-    most_bytes_unpacked =
+    max_bytes_unpacked =
         static_cast<std::size_t>(bytes_unpacked_per_texel * size.texels()) + (std::size_t{1} << 16);
     const std::unique_ptr<stbi_uc, decltype(&std::free)> pixels(
         stbi_load_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &size.width,

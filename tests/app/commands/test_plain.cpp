@@ -47,12 +47,13 @@ TEST_CASE("solve --plain is refused where there is no page or the page has no su
     };
     const std::string pages =
         "has no page; these have one: hemisphere, "
-        "hemisphere-1997, monte-carlo, progressive-monte-carlo, stored-transport";
-    for (const char* name : {"matrix", "progressive", "stratified"})
+        "hemisphere-1997, matrix, monte-carlo, progressive, progressive-monte-carlo, "
+        "stored-transport";
+    for (const char* name : {"hierarchical", "stratified"})
         refused("--method " + std::string(name), "--method " + std::string(name) + " " + pages);
     refused("--method monte-carlo --checkpoint a", "leave out --checkpoint and --resume");
     refused("--method hemisphere --resume a", "leave out --checkpoint and --resume");
     refused("--max-edge .01", "up to 2 000 patches");
-    refused("--method matrix --exact", "has no page");
+    refused("--method matrix --exact", "leave out --exact");
     CHECK_THAT(place.hemilux("compare room.obj -o a --plain").err, Contains("--plain"));
 }

@@ -45,10 +45,10 @@ void wait_for_renewals(const Workplace& place, const Running& running, const std
 /// Starts the run again and again, each time killed at a random moment after it has written a
 /// random number of checkpoints: the first time at least one. Then it ends by itself. A slow
 /// machine and a fast one differ in the steps that are done, not in what is checked.
-void check_kills(const Workplace& place, int kills, const std::string& run, int most_renewals) {
+void check_kills(const Workplace& place, int kills, const std::string& run, int max_renewals) {
     REQUIRE(place.hemilux(run + " -o whole.csv -o whole.ply").code == 0);
     std::mt19937 random(7); // moments and counts: statistics of no other test depend on it
-    std::uniform_int_distribution<int> count(0, most_renewals);
+    std::uniform_int_distribution<int> count(0, max_renewals);
     std::uniform_real_distribution<double> milliseconds(0, 30);
     const std::string kept = run + " --checkpoint saved --every 0 -o parts.csv -o parts.ply";
     for (int kill = 0; kill < kills; ++kill) {

@@ -219,7 +219,10 @@ TEST_CASE("a reader that closes its pipe has read enough of what is printed, but
         CHECK(shell(place, nobody_reads + printed + " >&4") == 0);
         CHECK(place.read("stderr.txt").empty());
     }
-    CHECK(shell(place, nobody_reads + "solve room.obj --steps 1 -q -o - >&4") == 3);
+    // The reader closes the pipe before the program begins.
+    CHECK(shell(place, "mkfifo gate && { read go <gate; \"$H\" solve room.obj --steps 1 -q -o -; "
+                       "echo $? >code; } | { exec <&-; echo go >gate; }") == 0);
+    CHECK(place.read("code") == "3\n");
     CHECK_THAT(place.read("stderr.txt"), Contains("cannot write: Broken pipe"));
 }
 

@@ -38,7 +38,7 @@ class Record final : public Canvas {
     std::vector<std::string> texts;
 };
 
-constexpr std::size_t dot_corners = 8, least_triangle_corners = 9;
+constexpr std::size_t dot_corners = 8, min_triangle_corners = 9;
 
 bool in_circle(const Vec2& point, const Vec2& centre) {
     return glm::length(point - centre) <= dome_radius * (1 + 1e-9);
@@ -48,7 +48,7 @@ bool in_circle(const Vec2& point, const Vec2& centre) {
 std::vector<Record::Filled> triangles(const Record& record, const Vec2& centre) {
     std::vector<Record::Filled> result;
     for (const Record::Filled& polygon : record.polygons)
-        if (polygon.corners.size() >= least_triangle_corners &&
+        if (polygon.corners.size() >= min_triangle_corners &&
             glm::length(polygon.corners.front() - centre) < 1.01 * dome_radius)
             result.push_back(polygon);
     return result;

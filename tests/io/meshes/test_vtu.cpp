@@ -3,6 +3,7 @@
 #include "io/meshes/vtu.h"
 #include "io/results/csv.h"
 #include "io/results/tables.h"
+#include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
@@ -77,7 +78,7 @@ TEST_CASE("a .vtu file has the columns of the patch table") {
                  {{"white <&\"", {0.1, 0.2, 0.3}, Vec3(0)}, {"lamp", Vec3(0.5), {1, 2, 3}}},
                  {0, 1, 0, 0, 0, 0});
     scene.facets.push_back({{0, 1, 2, 2}, scene.faces++, 0, 0});
-    const Mesh mesh(std::move(scene), {.max_edge = 2});
+    const Mesh mesh = layered_mesh(std::move(scene), {.max_edge = 2});
     const std::size_t n = mesh.patches().size();
     Solution solution;
     for (std::size_t i = 0; i < n; ++i) {

@@ -11,7 +11,7 @@ inline constexpr unsigned rays_in_flight = 48;
 struct alignas(64) RayState {
     SlabRay slabs;
     const FloatRay* ray;
-    std::uint32_t index; ///< of the ray in the stream
+    std::uint32_t index; ///< index of the ray in the stream
     std::uint32_t next;  ///< node or leaf to be visited; no_facet: the ray is done
     float t_max;         ///< shrinks
     Stack stack;

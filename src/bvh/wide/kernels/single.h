@@ -11,7 +11,7 @@ struct SlabRay {
     using Byte = unsigned char; // so that a state's head fits a line of the cache
 
     float inverse[3], offset[3];
-    Byte octant, near[3], far[3]; ///< where in a node the planes lie that are met first and last
+    Byte octant, near[3], far[3]; ///< places in a node of the planes met first and last
 
     void set(const FloatRay& ray) {
         octant = static_cast<Byte>(octant_of(ray.inverse));

@@ -106,7 +106,7 @@ struct Stack {
 
     unsigned top;
     alignas(64) std::uint32_t child[room * at_once];
-    alignas(64) float enter[room * at_once]; ///< where rays are stopped
+    alignas(64) float enter[room * at_once]; ///< places where rays are stopped
 
     void clear() {
         child[0] = no_facet;

@@ -10,7 +10,7 @@ namespace {
 
 /// Accessors without data are all zeros but for sparse elements. No model has many of these, and a
 /// few characters could ask for any number.
-constexpr std::size_t most_zeros = std::size_t{1} << 20;
+constexpr std::size_t max_zeros = std::size_t{1} << 20;
 
 struct ElementType {
     std::string_view name;
@@ -98,8 +98,8 @@ Accessor read_accessor(const JsonValue& value, const Document& document) {
     const std::size_t element = element_size(type, accessor.component);
     if (value.find("bufferView"))
         accessor.span = read_span(value, document, element, count);
-    else if (accessor.count > most_zeros)
-        count.fail("expected at most " + std::to_string(most_zeros) +
+    else if (accessor.count > max_zeros)
+        count.fail("expected at most " + std::to_string(max_zeros) +
                    " where there is no bufferView, found " + std::to_string(accessor.count));
     if (const auto sparse = value.find("sparse"))
         accessor.sparse = read_sparse(*sparse, document, accessor, element);
@@ -107,14 +107,14 @@ Accessor read_accessor(const JsonValue& value, const Document& document) {
 }
 
 BufferView read_view(const JsonValue& value, const Document& document) {
-    constexpr std::size_t least_stride = 4, most_stride = 252;
+    constexpr std::size_t min_stride = 4, max_stride = 252;
     BufferView view;
     view.buffer = value.at("buffer").index(document.buffers.size(), "buffers");
     const std::size_t bytes = document.buffers[view.buffer].length;
     view.offset = value.whole_or("byteOffset", 0, bytes);
     view.length = value.at("byteLength").whole(1, bytes - view.offset);
     if (const auto stride = value.find("byteStride"))
-        view.stride = stride->whole(least_stride, most_stride);
+        view.stride = stride->whole(min_stride, max_stride);
     return view;
 }
 

@@ -14,8 +14,8 @@ std::optional<TextureInfo> read_texture(const JsonValue& owner, std::string_view
         return std::nullopt;
     TextureInfo info;
     info.texture = value->at("index").index(document.textures.size(), "textures");
-    constexpr std::size_t most_sets = 16;
-    info.set = value->whole_or("texCoord", 0, most_sets);
+    constexpr std::size_t max_sets = 16;
+    info.set = value->whole_or("texCoord", 0, max_sets);
     if (const auto transform = value->extension("KHR_texture_transform")) {
         std::array<double, 2> offset{0, 0}, scale{1, 1};
         transform->numbers_of("offset", offset);
@@ -23,7 +23,7 @@ std::optional<TextureInfo> read_texture(const JsonValue& owner, std::string_view
         info.offset = {offset[0], offset[1]};
         info.scale = {scale[0], scale[1]};
         info.rotation = transform->number_or("rotation", 0);
-        info.set = transform->whole_or("texCoord", info.set, most_sets);
+        info.set = transform->whole_or("texCoord", info.set, max_sets);
     }
     return info;
 }

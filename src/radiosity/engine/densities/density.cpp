@@ -32,7 +32,7 @@ class TreeWalk {
 
   private:
     static constexpr std::int16_t unknown = -1;
-    static constexpr std::size_t most_vertices = 2113; ///< at Hemisphere::max_depth
+    static constexpr std::size_t max_vertices = 2113; ///< at Hemisphere::max_depth
 
     void ask(std::uint16_t vertex) {
         if (count_[vertex] == unknown)
@@ -57,7 +57,7 @@ class TreeWalk {
     double threshold_;
     const CountAt& count_at_;
     const Leaf& leaf_;
-    std::array<std::int16_t, most_vertices> count_;
+    std::array<std::int16_t, max_vertices> count_;
 };
 
 /// A threshold below any mean: all triangles are divided.

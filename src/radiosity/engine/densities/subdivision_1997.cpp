@@ -29,12 +29,12 @@ void Subdivision1997::check(const Subdivision1997Options& options) {
     check_choice("parts", options.parts, part_choices);
     const std::uint32_t level = options.stored_steps + options.estimated_steps;
     const std::uint64_t wanted = options.parts * (std::uint64_t{4} << (2 * level));
-    if (wanted > most_triangles)
+    if (wanted > max_triangles)
         throw std::invalid_argument(
             std::to_string(options.stored_steps) + " stored and " +
             std::to_string(options.estimated_steps) + " estimated steps make " +
             std::to_string(wanted) + " triangles over " + std::to_string(options.parts) +
-            " parts of a patch; expected " + std::to_string(most_triangles) + " at most");
+            " parts of a patch; expected " + std::to_string(max_triangles) + " at most");
 }
 
 Subdivision1997::Subdivision1997(const Mesh& mesh, const Needs& needs,

@@ -25,7 +25,7 @@ class Workers;
 class Subdivision1997 {
   public:
     /// A patch may have at most this many triangles, over all its parts.
-    static constexpr std::uint64_t most_triangles = 1 << 14;
+    static constexpr std::uint64_t max_triangles = 1 << 14;
     /// Throws std::invalid_argument, with what was expected, unless the numbers of steps and parts
     /// are among the choices and give no more triangles than that.
     static void check(const Subdivision1997Options& options);

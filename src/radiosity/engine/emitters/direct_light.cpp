@@ -133,9 +133,9 @@ void DirectLight::save(StateWriter& state) const {
 void DirectLight::load(StateReader& state) {
     state.get(std::span(sum_), bounds::non_negative);
     // A patch for which shadow rays no longer pay keeps its sums, but has no samples.
-    constexpr double most_forgotten = 1u << 20;
+    constexpr double max_forgotten = 1u << 20;
     const auto check_mean = [](double sum, double samples) {
-        if (sum > largest_radiosity * (samples > 0 ? samples : most_forgotten))
+        if (sum > largest_radiosity * (samples > 0 ? samples : max_forgotten))
             throw StateError("shadow rays brought more light than there may be");
     };
     state.get(std::span(samples_));

@@ -16,7 +16,7 @@ namespace hemilux {
 namespace {
 
 /// The most emitters that a patch weighs one by one; if there are more, it weighs so many clusters.
-constexpr std::size_t most_emitters = 1024, most_clusters = 128;
+constexpr std::size_t max_emitters = 1024, max_clusters = 128;
 
 /// Returns the light of each emitter, as the mean of its channels relative to the most that any has
 /// in that channel. So an emitter that is faint, but the only one in its channel, is as important
@@ -156,7 +156,7 @@ void EmitterChoice::weigh(const Vec3& point, const Vec3& normal, Cut& cut) const
 }
 
 void EmitterChoice::weigh_all(const EmitterReceiver& to, Cut& cut) const {
-    if (order_.size() <= most_emitters) {
+    if (order_.size() <= max_emitters) {
         cut.sums.resize(order_.size() + 1);
         cut.found.resize(order_.size());
         sampling_kernels().weigh_emitters(arrays_from(0), order_.size(), to, cut.sums.data() + 1,
@@ -178,7 +178,7 @@ void EmitterChoice::choose_clusters(const EmitterReceiver& to, Cut& cut) const {
     using Near = std::pair<double, std::uint32_t>;
     thread_local std::vector<Near> heap;
     heap.assign(1, {nearness(to, clusters_.front()), 0});
-    while (heap.size() < most_clusters) {
+    while (heap.size() < max_clusters) {
         std::ranges::pop_heap(heap);
         const Cluster& cluster = clusters_[heap.back().second];
         if (cluster.left == 0)

@@ -19,7 +19,7 @@ namespace {
 constexpr double largest_share = .3;
 
 /// The most points from which the view is judged, and the most products of points and emitters.
-constexpr std::size_t most_points = 512, most_views = 400'000;
+constexpr std::size_t max_points = 512, max_views = 400'000;
 
 /// One side of a facet that emits, as if it were not divided.
 struct EmittingSide {
@@ -117,7 +117,7 @@ std::vector<double> shares_of(const Mesh& mesh, const std::vector<EmittingSide>&
             shares.push_back(side.area / total);
         return shares;
     }
-    const Views views(mesh, std::clamp<std::size_t>(most_views / sides.size(), 1, most_points));
+    const Views views(mesh, std::clamp<std::size_t>(max_views / sides.size(), 1, max_points));
     for (const EmittingSide& side : sides) {
         const Patch& patch = mesh.patches()[emitters[side.first]];
         shares.push_back(views.share_of(mesh.whole_side(patch.facet, patch.back)));

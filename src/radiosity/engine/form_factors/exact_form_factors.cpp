@@ -17,6 +17,9 @@ namespace {
 constexpr double plane_rounding = 1e-9; ///< of the scene's size: what is nearer to a plane is in it
 constexpr double sampled = -1;          ///< marks an entry
 
+/// Where so many rays are expected hardly any row has none: one in fifty [-].
+constexpr double enough_rays = 4;
+
 /// Returns whether two boxes share more than their boundaries.
 bool overlap(const Box& a, const Box& b) {
     for (int axis = 0; axis < 3; ++axis)
@@ -80,13 +83,13 @@ bool nothing_between(const Mesh& mesh, std::span<const Box> facet_boxes, const F
 } // namespace
 
 ExactFormFactors::ExactFormFactors(const Mesh& mesh, const Workers& workers, const Monitor& monitor)
-    : mesh_(mesh), rows_(mesh.patches().size()) {
+    : rows_(mesh.patches().size()) {
     std::vector<Box> boxes;
     for (std::uint32_t f = 0; f < mesh.soup().facets.size(); ++f)
         boxes.push_back(box_of(mesh.shape_of(f).corner));
     workers.for_chunks(rows_.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
-            find_row(static_cast<std::uint32_t>(i), boxes);
+            find_row(mesh, static_cast<std::uint32_t>(i), boxes);
     });
     // The lower half follows by reciprocity.
     const auto patches = mesh.patches();
@@ -102,44 +105,64 @@ ExactFormFactors::ExactFormFactors(const Mesh& mesh, const Workers& workers, con
         std::ranges::sort(row, {}, &Entry::patch);
 }
 
-void ExactFormFactors::find_row(std::uint32_t i, std::span<const Box> facet_boxes) {
-    const auto patches = mesh_.patches();
+void ExactFormFactors::find_row(const Mesh& mesh, std::uint32_t i,
+                                std::span<const Box> facet_boxes) {
+    const auto patches = mesh.patches();
     for (std::uint32_t j = i + 1; j < patches.size(); ++j) {
         const FacingPair pair = facing_parts(patches[i].shape, patches[j].shape, plane_rounding);
         if (pair.from.empty())
             continue;
         const double smaller = std::min(patches[i].area, patches[j].area);
-        const double factor = nothing_between(mesh_, facet_boxes, pair, patches[i], patches[j])
+        const double factor = nothing_between(mesh, facet_boxes, pair, patches[i], patches[j])
                                   ? exchange_area(pair.from, pair.to, smaller) / patches[i].area
                                   : sampled;
         rows_[i].push_back({j, factor});
     }
 }
 
+/// The exact factors of a row say what all else sums to: the sampled pairs and what is lost. Rays
+/// only say how that is shared out, and all of it is scaled. If the pairs alone were, they would
+/// take the noise of what is lost. Where too few rays are expected there, many rows have none and
+/// scaling the others would be wrong on average. Then the exact factors are scaled to what the rays
+/// leave.
 SparseMatrix ExactFormFactors::matrix(const SampledFormFactors& samples) const {
     const SparseMatrix all = samples.matrix();
+    std::vector<bool> is_emitter(rows_.size());
+    for (const std::uint32_t emitter : samples.emitters())
+        is_emitter[emitter] = true;
     SparseMatrix result;
     result.row_begin.push_back(0);
+    std::vector<double> sampled_factor(rows_.size()); // of the row
     for (std::uint32_t i = 0; i < rows_.size(); ++i) {
-        double exact = 0, drawn = 0;
-        std::vector<std::size_t> open; // entries that were drawn
-        std::size_t k = all.row_begin[i];
+        for (std::size_t k = all.row_begin[i]; k < all.row_begin[i + 1]; ++k)
+            sampled_factor[all.column[k]] = all.value[k];
+        double exact = 0, to_emitters = 0, by_counts = samples.lost()[i].sum();
+        bool has_samples = false;
         for (const Entry& entry : rows_[i]) {
-            while (k < all.row_begin[i + 1] && all.column[k] < entry.patch)
-                ++k;
-            const bool seen = k < all.row_begin[i + 1] && all.column[k] == entry.patch;
-            const double factor = entry.factor >= 0 ? entry.factor : seen ? all.value[k] : 0;
+            has_samples = has_samples || entry.factor < 0;
+            if (entry.factor >= 0)
+                exact += entry.factor;
+            else
+                (is_emitter[entry.patch] ? to_emitters : by_counts) += sampled_factor[entry.patch];
+        }
+        double scale_of_exact = 1, scale_of_counts = 1;
+        const double rest = std::max(1 - exact - to_emitters, 0.0);
+        if (rest * samples.rays() >= enough_rays)
+            scale_of_counts = by_counts > 0 ? rest / by_counts : 1;
+        else if (has_samples && exact > 0)
+            scale_of_exact = std::max(1 - to_emitters - by_counts, 0.0) / exact;
+        for (const Entry& entry : rows_[i]) {
+            const double factor =
+                entry.factor >= 0
+                    ? scale_of_exact * entry.factor
+                    : sampled_factor[entry.patch] * (is_emitter[entry.patch] ? 1 : scale_of_counts);
             if (!(factor > 0))
                 continue;
-            if (entry.factor < 0)
-                open.push_back(result.value.size());
-            (entry.factor < 0 ? drawn : exact) += factor;
             result.column.push_back(entry.patch);
             result.value.push_back(factor);
         }
-        const double rest = std::max(1 - exact, 0.0), rays = drawn + samples.lost()[i].sum();
-        for (const std::size_t place : open)
-            result.value[place] *= rest / rays;
+        for (std::size_t k = all.row_begin[i]; k < all.row_begin[i + 1]; ++k)
+            sampled_factor[all.column[k]] = 0;
         result.row_begin.push_back(result.value.size());
     }
     return result;

@@ -14,18 +14,16 @@
 namespace hemilux {
 
 /// The largest number of patches; more would take very long.
-inline constexpr std::size_t most_patches_for_exact_factors = 2000;
+inline constexpr std::size_t max_patches_for_exact_factors = 2000;
 
 class ExactFormFactors {
   public:
     /// Finds the factors of all pairs of patches that see each other fully. Work grows as patches^2
     /// facets: it suits a few thousand patches. The result is void if the monitor was interrupted.
-    /// The mesh outlives this.
     ExactFormFactors(const Mesh& mesh, const Workers& workers, const Monitor& monitor);
 
-    /// Returns the matrix, with the sampled factors for the other pairs; they must have been made
-    /// without emitters. What the exact factors of a row leave of 1 is known. So the sampled ones,
-    /// and the rays that were lost, share in it as they were drawn, and rows are closed.
+    /// Returns the matrix, with the sampled factors for the other pairs. Rows are closed: they sum
+    /// to 1 minus what is lost.
     [[nodiscard]] SparseMatrix matrix(const SampledFormFactors& sampled) const;
 
     /// Returns F_ij [-] where it is known without sampling; 0 where the two do not face each other.
@@ -40,9 +38,8 @@ class ExactFormFactors {
         double factor; ///< F [-]; < 0: to be sampled
     };
     /// Finds the pairs of a patch with patches of higher index.
-    void find_row(std::uint32_t patch, std::span<const Box> facet_boxes);
+    void find_row(const Mesh& mesh, std::uint32_t patch, std::span<const Box> facet_boxes);
 
-    const Mesh& mesh_;
     std::vector<std::vector<Entry>> rows_; ///< by patch, ascending
 };
 

@@ -60,7 +60,7 @@ double adaptive(const Function& f, double a, double b, double whole, const Accur
 }
 
 double contour_integral(const Outline& from, const Outline& to, double tolerance) {
-    constexpr int most_halvings = 40;
+    constexpr int max_halvings = 40;
     double sum = 0;
     for (std::size_t i = 0; i < from.size(); ++i) {
         const Vec3 start = from[i], edge = from[(i + 1) % from.size()] - start;
@@ -75,7 +75,7 @@ double contour_integral(const Outline& from, const Outline& to, double tolerance
             };
             constexpr double epsilon = 4e-16; // of the primitives, which are about 1
             const Accuracy accuracy{tolerance, epsilon * std::abs(product) / length};
-            sum += adaptive(f, 0, 1, gauss(f, 0, 1), accuracy, most_halvings);
+            sum += adaptive(f, 0, 1, gauss(f, 0, 1), accuracy, max_halvings);
         }
     }
     return sum;
@@ -123,9 +123,9 @@ double exchange_area(const Outline& from, const Outline& to, double smaller_area
             p = (p - origin) / unit;
         return outline;
     };
-    constexpr double error = 1e-10, most_edge_pairs = 25;
+    constexpr double error = 1e-10, max_edge_pairs = 25;
     const double tolerance =
-        error * 2 * std::numbers::pi * smaller_area / (unit * unit) / most_edge_pairs;
+        error * 2 * std::numbers::pi * smaller_area / (unit * unit) / max_edge_pairs;
     return unit * unit / (2 * std::numbers::pi) *
            std::abs(contour_integral(scaled(from), scaled(to), tolerance));
 }

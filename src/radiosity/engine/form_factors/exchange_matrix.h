@@ -75,7 +75,7 @@ class ExchangeMatrix {
         own_.ranks().add_work(0, rows_.entries() * static_cast<std::size_t>(products));
     }
     static constexpr std::size_t rows_per_chunk = SparseRows::rows_per_chunk;
-    static_assert(OwnBlocks::least_block % rows_per_chunk == 0, "a chunk is one rank's");
+    static_assert(OwnBlocks::min_block % rows_per_chunk == 0, "a chunk is one rank's");
     /// Returns the rows that this rank has; a single rank has all.
     [[nodiscard]] const OwnBlocks& own_rows() const { return own_; }
 

@@ -67,7 +67,7 @@ MethodOption exact_option() {
     return {
         .name = "--exact",
         .help = "form factors without chance where patches see each other fully; for up to " +
-                std::to_string(most_patches_for_exact_factors) + " patches",
+                std::to_string(max_patches_for_exact_factors) + " patches",
         .values = {},
         .set = [](SolveOptions& options,
                   std::string_view text) { return text == "yes" && set_factors(options, "exact"); },
@@ -77,9 +77,9 @@ MethodOption exact_option() {
 }
 
 void check_exact(const SolveOptions& options, std::size_t patches) {
-    if (is_exact(options) && patches > most_patches_for_exact_factors)
+    if (is_exact(options) && patches > max_patches_for_exact_factors)
         throw std::invalid_argument(
-            "--exact is for up to " + std::to_string(most_patches_for_exact_factors) +
+            "--exact is for up to " + std::to_string(max_patches_for_exact_factors) +
             " patches, not " + std::to_string(patches) + "; leave it out and take more --rays");
 }
 

@@ -31,10 +31,10 @@ struct Monitor;
 
 class Hemicube {
   public:
-    static constexpr std::uint32_t least_edge = 2, most_edge = 1024;
-    /// Returns whether a number of pixels is even and from least_edge to most_edge.
+    static constexpr std::uint32_t min_edge = 2, max_edge = 1024;
+    /// Returns whether a number of pixels is even and from min_edge to max_edge.
     [[nodiscard]] static bool is_edge(std::uint64_t pixels) {
-        return pixels >= least_edge && pixels <= most_edge && pixels % 2 == 0;
+        return pixels >= min_edge && pixels <= max_edge && pixels % 2 == 0;
     }
 
     /// Makes a hemicube with `edge` pixels along an edge of the top face. Four half sides have edge

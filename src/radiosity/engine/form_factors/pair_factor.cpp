@@ -17,21 +17,21 @@ namespace {
 
 /// A pair of less importance gets as many rays as its importance, in two batches of points: they
 /// are too few to judge by.
-constexpr double least_importance_to_adapt = 32;
+constexpr double min_importance_to_adapt = 32;
 
 /// Other pairs get from a quarter to four times their importance in rays, in four batches, whose
 /// agreement is seldom chance. Rays are added until the variance is that of `importance` points
 /// with this relative variance each.
-constexpr double least_share = 0.25, most_share = 4;
+constexpr double min_share = 0.25, max_share = 4;
 constexpr std::uint32_t adaptive_batches = 4;
 constexpr double relative_variance = 0.03;
 
 /// The largest number of rays of a pair, whatever its importance.
-constexpr double most_rays = 8192;
+constexpr double max_rays = 8192;
 
 /// Returns the number of points of each batch, a power of two, for which they are best distributed.
 std::uint32_t points_per_batch(double rays, std::uint32_t batches) {
-    const double points = std::clamp(rays, 2.0, most_rays) / batches;
+    const double points = std::clamp(rays, 2.0, max_rays) / batches;
     return std::bit_ceil(static_cast<std::uint32_t>(std::max(points, 1.0)));
 }
 
@@ -49,11 +49,11 @@ void PairFactor::average(std::span<const double> sums, double points_each) {
 bool may_see(const Patch& a, const Patch& b) {
     // Neighbours in one plane are in front of each other by rounding errors only. These are errors
     // of their places, which may be coarse far from a file's origin. Walls may be nearer than that.
-    constexpr double least_slope = 1e-7;
-    const double least_height = 1e-12 + least_slope * glm::distance(a.centre, b.centre);
+    constexpr double min_slope = 1e-7;
+    const double min_height = 1e-12 + min_slope * glm::distance(a.centre, b.centre);
     const auto reaches_above = [&](const Patch& patch, const Patch& plane) {
         return std::ranges::any_of(patch.shape.corner, [&](const Vec3& corner) {
-            return glm::dot(plane.normal, corner - plane.centre) > least_height;
+            return glm::dot(plane.normal, corner - plane.centre) > min_height;
         });
     };
     return reaches_above(a, b) && reaches_above(b, a);
@@ -62,9 +62,9 @@ bool may_see(const Patch& a, const Patch& b) {
 double rough_factor(const Patch& from, const Patch& to) {
     const Vec3 d = to.centre - from.centre;
     const double r2 = glm::dot(d, d), r = std::sqrt(r2);
-    const double least_cosine = (std::sqrt(from.area) + std::sqrt(to.area)) / (2 * r);
+    const double min_cosine = (std::sqrt(from.area) + std::sqrt(to.area)) / (2 * r);
     const auto cosine = [&](double at_centres) {
-        return std::min(std::max(least_cosine, at_centres), 1.0); // 1 for a NaN of equal centres
+        return std::min(std::max(min_cosine, at_centres), 1.0); // 1 for a NaN of equal centres
     };
     return cosine(glm::dot(from.normal, d) / r) * cosine(-glm::dot(to.normal, d) / r) * to.area /
            (std::numbers::pi * r2 + to.area);
@@ -72,10 +72,10 @@ double rough_factor(const Patch& from, const Patch& to) {
 
 PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
                        double importance, std::uint64_t seed, bool visibility) {
-    const bool adaptive = importance >= least_importance_to_adapt;
+    const bool adaptive = importance >= min_importance_to_adapt;
     const std::uint32_t batches = adaptive ? adaptive_batches : 2;
     const std::uint32_t most =
-        points_per_batch(adaptive ? most_share * importance : importance, batches);
+        points_per_batch(adaptive ? max_share * importance : importance, batches);
     const PairLook look(mesh, tracer, from, to, near_radii * radius_of(mesh.patches()[to]),
                         visibility);
     PairFactor result;
@@ -94,7 +94,7 @@ PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t fro
         result.average({sum.data(), batches}, end);
     };
     std::uint32_t begin = 0,
-                  end = adaptive ? points_per_batch(least_share * importance, batches) : most;
+                  end = adaptive ? points_per_batch(min_share * importance, batches) : most;
     for (;; begin = end, end *= 2) {
         look_at_points(begin, end);
         // There may be a gap all the same. Pairs that met something go on to `most` points, of

@@ -43,6 +43,8 @@ class SampledFormFactors {
 
     /// Returns F, merged and closed.
     [[nodiscard]] SparseMatrix matrix() const;
+    /// Returns the number of rays per patch so far.
+    [[nodiscard]] std::uint32_t rays() const { return rays_; }
     /// Returns the escape fractions by patch.
     [[nodiscard]] std::span<const EscapeFraction> lost() const { return lost_; }
     [[nodiscard]] std::span<const std::uint32_t> emitters() const { return emitters_; }

@@ -6,7 +6,7 @@ namespace hemilux {
 namespace {
 
 /// An exact share counts as if so many times the emitter's rays had found it.
-constexpr double most_rays_more = 1000;
+constexpr double max_rays_more = 1000;
 
 /// Both estimates of the share that one emitter loses.
 struct TwoAccounts {
@@ -63,7 +63,7 @@ std::vector<std::vector<EmitterLoss>> emitter_losses(std::span<const SampledForm
         const TwoAccounts accounts(batches, e);
         const double of_rays = accounts.variance_by_rays(rays);
         const double weight = of_rays / (of_rays + accounts.variance_by_factors()); // of factors
-        const double more = std::min(1 / (1 - weight), most_rays_more);
+        const double more = std::min(1 / (1 - weight), max_rays_more);
         const double escaping = kinds.escaped / sum;
         for (std::size_t r = 0; r < batches.size(); ++r) {
             const double share = std::clamp(

@@ -45,7 +45,7 @@ class HemisphereStrategy final : public Strategy {
             allocate_leaves(leaves_of_one_surface(hemisphere, input.options.threshold),
                             allocated_of_one_surface_);
         const std::size_t cells = hemisphere.cells().size() * input.mesh.patches().size();
-        if (densities_ && cells <= most_kept_cells && !input.monitor.interrupted)
+        if (densities_ && cells <= max_kept_cells && !input.monitor.interrupted)
             keep_allocated(input, workers);
     }
 
@@ -82,7 +82,7 @@ class HemisphereStrategy final : public Strategy {
     /// In a scene of at most so many cells, what is allocated is kept, 440 bytes per patch. Patches
     /// shoot few rays at a time there, and walking their trees each time takes 1.3 times the
     /// instructions of a step (room_1002). Large scenes need only the bytes.
-    static constexpr std::size_t most_kept_cells = 2'000'000;
+    static constexpr std::size_t max_kept_cells = 2'000'000;
 
     void keep_allocated(const SolverInput& input, const Workers& workers) {
         kept_.resize(input.mesh.patches().size());
@@ -117,7 +117,7 @@ class HemisphereStrategy final : public Strategy {
         double average = 0; // D_average
         for (const DensityLeaf& leaf : leaves)
             average += area_shares_[leaf.cell] * leaf.density;
-        const double least = std::max(least_density, least_share * average);
+        const double least = std::max(min_density, min_share * average);
         const auto due = [&](const DensityLeaf& leaf) {
             const double density = leaf.density; // D_tr
             return area_shares_[leaf.cell] * (printed_ ? density : std::max(density, least));
@@ -133,7 +133,7 @@ class HemisphereStrategy final : public Strategy {
     /// A triangle whose three vertices saw nothing may still hold something. It counts as at least
     /// one surface, and as at least a share of the average, so that no ray carries more than five
     /// times the mean. Where nothing is seen anywhere, rays then follow the power (D5).
-    static constexpr double least_density = 1, least_share = 0.25;
+    static constexpr double min_density = 1, min_share = 0.25;
 
     bool printed_;
     std::vector<double> area_shares_; ///< by cell

@@ -45,7 +45,7 @@
 namespace hemilux {
 namespace {
 
-static_assert(Subdivision1997::most_triangles < whole_hemisphere);
+static_assert(Subdivision1997::max_triangles < whole_hemisphere);
 
 class Hemisphere1997 final : public Strategy, StepHook, PrivateCells {
   public:

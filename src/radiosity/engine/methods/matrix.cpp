@@ -6,7 +6,7 @@
 // their spread gives its standard error. Each step doubles the rays; the run ends when the
 // estimated error is small enough (.002 unless asked otherwise). With --factors exact, factors
 // between patches that see each other fully are found without chance, by contour integration
-// (exact_form_factors.h). Rays are used for the other pairs alone. With --factors hemicube, a
+// (exact_form_factors.h). Rays are used for the other pairs. With --factors hemicube, a
 // hemicube over each patch gives its factors (hemicube.h). That is one step, and its error is not
 // estimated (linear/hemicube_matrix.h).
 //
@@ -41,7 +41,9 @@ namespace {
 
 constexpr std::size_t batches = 8;
 /// The rays per patch and batch at which the run ends whatever the error.
-constexpr std::uint32_t most_rays = 1u << 20;
+constexpr std::uint32_t max_rays = 1u << 20;
+/// The share of a row of exact factors that may be missing by rounding [-].
+constexpr double rounding_of_rows = 1e-8;
 
 /// Returns the patches whose columns get the closed form: all that emit, unless they are so many
 /// that rays find them anyway.
@@ -62,11 +64,9 @@ class MatrixSolver final : public Solver {
     explicit MatrixSolver(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
           batches_(input, batches, solution_), surfaces_(input.mesh) {
-        std::vector<std::uint32_t> emitters;
+        const std::vector<std::uint32_t> emitters = few_emitters(input.mesh);
         if (input.options.own.of<FactorOptions>().kind == FactorKind::exact)
             exact_.emplace(input.mesh, workers_, input.monitor);
-        if (!exact_)
-            emitters = few_emitters(input.mesh);
         rays_find_emission_ = emitters.empty();
         // Exact factors are put together with those of all patches.
         const Needs& needs = exact_ ? everything_needed : input.needs;
@@ -96,7 +96,9 @@ class MatrixSolver final : public Solver {
                 return false;
         }
         rays_of_step_ = rays;
-        const auto losses = emitter_losses(factors_, rays);
+        std::vector<std::vector<EmitterLoss>> losses(batches);
+        if (!exact_) // whose rows show what is lost
+            losses = emitter_losses(factors_, rays);
         const std::optional<bool> solved =
             batches_.solve(search, solution_, [&](std::size_t r, std::vector<Vec3>& radiosity) {
                 return solve(factors_[r], losses[r], radiosity);
@@ -112,14 +114,14 @@ class MatrixSolver final : public Solver {
     }
 
     [[nodiscard]] bool finished() const override {
-        return rays_ >= most_rays || (rays_ > 0 && !input_.needs.bounces);
+        return rays_ >= max_rays || (rays_ > 0 && !input_.needs.bounces);
     }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
   private:
     /// Returns a power of two, for which the points are best distributed.
     [[nodiscard]] std::uint32_t first_rays() const {
-        const double asked = std::clamp(input_.options.rays, 1.0, double(most_rays));
+        const double asked = std::clamp(input_.options.rays, 1.0, double(max_rays));
         return std::bit_ceil(static_cast<std::uint32_t>(std::ceil(asked)));
     }
 
@@ -134,11 +136,14 @@ class MatrixSolver final : public Solver {
         const std::vector<double> ones(n, 1.0);
         std::vector<double> kept(n);
         f.multiply(ones, kept, workers_);
+        const EscapeFraction elsewhere = kinds_elsewhere(factors);
         for (std::uint32_t i = 0; i < n; ++i) {
-            const EscapeFraction& by_rays = factors.lost()[i];
-            const double sum = by_rays.sum();
-            const double scale = sum > 0 ? std::clamp(1 - kept[i], 0.0, 1.0) / sum : 0;
-            lost[i] = {scale * by_rays.escaped, scale * by_rays.absorbed};
+            const double share = std::clamp(1 - kept[i], 0.0, 1.0);
+            const bool unseen =
+                exact_ && share > rounding_of_rows && !(factors.lost()[i].sum() > 0);
+            const EscapeFraction& kinds = unseen ? elsewhere : factors.lost()[i];
+            const double scale = kinds.sum() > 0 ? share / kinds.sum() : 0;
+            lost[i] = {scale * kinds.escaped, scale * kinds.absorbed};
         }
         for (std::size_t e = 0; e < losses.size(); ++e) {
             lost[factors.emitters()[e]] = losses[e].lost;
@@ -147,6 +152,23 @@ class MatrixSolver final : public Solver {
         return solve_closed([&](auto x, auto y) { f.multiply(x, y, workers_); },
                             {surfaces_.area, surfaces_.emission, surfaces_.reflectance, lost, rays},
                             input_, radiosity);
+    }
+
+    /// Returns of which kinds the losses are, for rows whose exact factors show that light is lost
+    /// and whose rays do not.
+    [[nodiscard]] static EscapeFraction kinds_elsewhere(const SampledFormFactors& factors) {
+        EscapeFraction sum;
+        for (const EscapeFraction& lost : factors.lost()) {
+            sum.escaped += lost.escaped;
+            sum.absorbed += lost.absorbed;
+        }
+        return sum.sum() > 0 ? sum : EscapeFraction{.escaped = 1};
+    }
+
+    /// Returns whether rays may have missed something. Contour integration misses nothing, and in a
+    /// closed scene no light is lost.
+    [[nodiscard]] bool may_miss() const {
+        return !input_.needs.closed && !(exact_ && exact_->sampled_pairs() == 0);
     }
 
     void combine() {
@@ -169,7 +191,7 @@ class MatrixSolver final : public Solver {
     /// been. What is emitted is all that is used, and one ray carries its part of what leaves all
     /// patches.
     [[nodiscard]] double missed_loss() const {
-        if (exact_ || input_.needs.closed)
+        if (!may_miss())
             return 0;
         double leaving = 0, emitted = 0, rays = 0;
         for (std::uint32_t i = 0; i < solution_.radiosity.size(); ++i) {
@@ -182,11 +204,11 @@ class MatrixSolver final : public Solver {
         return emitted > 0 ? rule_of_three * leaving / (rays * emitted) : 0;
     }
 
-    /// Returns what dark patches may receive besides; by contour integration nothing is left to
-    /// chance. Emission with a closed form does not wait for a ray to find it.
+    /// Returns what dark patches may receive besides. Emission with a closed form does not wait for
+    /// a ray to find it.
     [[nodiscard]] std::vector<Vec3> missed_light() const {
         const std::size_t n = solution_.radiosity.size();
-        if (exact_ || input_.needs.closed)
+        if (!may_miss())
             return std::vector<Vec3>(n, Vec3(0.0));
         const std::vector<double> rays(n, double(rays_) * batches);
         std::vector<Vec3> incident(n);
@@ -235,7 +257,7 @@ extern const Method matrix_method{
     .make = make_matrix,
     .work = {.pairs = true, .linear_systems = true, .passes = true},
     .plain = plain::matrix,
-    .most_plain_patches = plain::most_patches_of_matrix,
+    .max_plain_patches = plain::max_patches_of_matrix,
     .role = Role::reference,
     .options = options,
     .check = check_exact,

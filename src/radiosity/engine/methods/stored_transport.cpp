@@ -65,7 +65,7 @@ class StoredTransportSolver final : public Solver {
         SearchForWayOut search(input_);
         std::optional<bool> done;
         while (!(done = try_step(search)))
-            search.go_on(traced_, !finished() && room_to_grow() >= RayPlan::least_growth);
+            search.go_on(traced_, !finished() && room_to_grow() >= RayPlan::min_growth);
         return *done;
     }
 
@@ -169,7 +169,7 @@ class StoredTransportSolver final : public Solver {
             renew_aim();
         const double relative = solution_.steps > 0 ? errors_.relative(input_.mesh, solution_) : 0;
         const double room = room_to_grow();
-        if (room >= RayPlan::least_growth) {
+        if (room >= RayPlan::min_growth) {
             plan_.grow({relative, errors_.variance, errors_.from_emitters, drained_}, room,
                        workers_);
         } else { // as many rays as before, all anew
@@ -257,7 +257,7 @@ extern const Method stored_transport_method{
     .work = {.pairs = true},
     .saves = true,
     .plain = plain::stored_transport,
-    .most_plain_patches = plain::most_patches_of_stored_transport,
+    .max_plain_patches = plain::max_patches_of_stored_transport,
     .role = Role::standard,
     .aims = [] { return true; },
     .bytes =

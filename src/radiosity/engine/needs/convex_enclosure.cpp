@@ -16,7 +16,7 @@ namespace {
 /// are rounded to decimals.
 constexpr double slack = 1e-7;
 /// The largest number of pairs of a plane and a vertex that are tested.
-constexpr double most_pairs = 1e8;
+constexpr double max_pairs = 1e8;
 
 /// A plane with the equation normal . x = offset.
 struct Plane {
@@ -58,8 +58,7 @@ bool all_in_front(const FacetSoup& soup) {
     const auto check = [&](const Plane& plane) {
         if (!seen.insert(key_of(plane)).second)
             return true;
-        return static_cast<double>(seen.size()) * static_cast<double>(points.size()) <=
-                   most_pairs &&
+        return static_cast<double>(seen.size()) * static_cast<double>(points.size()) <= max_pairs &&
                std::ranges::all_of(points, [&](const Vec3& p) {
                    return glm::dot(plane.normal, p) - plane.offset >= -slack;
                });

@@ -40,7 +40,7 @@ void find_idle_patches(const Mesh& mesh, Needs& needs) {
 } // namespace
 
 bool needs_tree(const Mesh& mesh) {
-    return count_triangles(mesh.scene()) > most_triangles_without_tree;
+    return count_triangles(mesh.scene()) > max_triangles_without_tree;
 }
 
 Needs find_needs(const Mesh& mesh) {

@@ -20,6 +20,6 @@ class Mesh;
 
 /// Up to so many triangles form one leaf of the tree, tested at once. With more of them boxes pay
 /// (measured in docs/measured/results.md).
-inline constexpr std::size_t most_triangles_without_tree = 8;
+inline constexpr std::size_t max_triangles_without_tree = 8;
 
 } // namespace hemilux

@@ -12,18 +12,18 @@ namespace {
 
 /// Heights above a plane that are nothing but rounding [local units]. A facet that shines at
 /// another from less would give it less than this share of its light.
-constexpr double least_height = 1e-12;
+constexpr double min_height = 1e-12;
 
 /// The number of pairs tested in vain before the rest is taken to be lit. They take a quarter of a
 /// second at most.
-constexpr std::size_t most_looks = 10'000'000;
+constexpr std::size_t max_looks = 10'000'000;
 
 /// One side of a facet: its corners, and the plane normal . x = offset.
 struct Side {
     std::array<Vec3, 4> corner;
     Vec3 normal;
     double offset;
-    /// A corner is in front if its height exceeds this threshold. It is below least_height, down to
+    /// A corner is in front if its height exceeds this threshold. It is below min_height, down to
     /// minus infinity where the plane is not well known.
     double threshold;
 
@@ -41,7 +41,7 @@ struct Side {
         const double length_over_width = longest * longest / shape.area();
         const double off =
             4 * (rounding + 2 * without_rounding(warp) / longest) * length_over_width;
-        threshold = least_height - off;
+        threshold = min_height - off;
         if (!(off < 1))
             threshold = -std::numeric_limits<double>::infinity();
     }
@@ -107,7 +107,7 @@ class Spread {
     /// Returns whether one of the sides that have just begun to shine shines at this one. Tests the
     /// side that was found last first.
     bool is_reached(std::uint32_t s) {
-        if (sees(s, last_) || looks_ > most_looks)
+        if (sees(s, last_) || looks_ > max_looks)
             return true;
         const auto found =
             std::ranges::find_if(shining_, [&](std::uint32_t other) { return sees(s, other); });

@@ -22,15 +22,15 @@ constexpr double finished_share = 2e-5, finished_share_of_emitted = 5e-3;
 
 /// The limits on the number of rays from each shooter that find how much of its light leaves the
 /// scene.
-constexpr double least_lost_rays = 16, most_lost_rays = 16384;
+constexpr double min_lost_rays = 16, max_lost_rays = 16384;
 
 /// The largest mean reflectances, so that sums of all reflections stay finite. The first is for the
 /// light that a pass waits for, the second for its errors, as light in a bright room may go round
 /// for longer.
-constexpr double most_reflectance = .999, most_of_errors = .99999;
+constexpr double max_reflectance = .999, max_of_errors = .99999;
 
 /// The most that overshooting adds to what is unshot, as a share of that.
-constexpr double most_overshot = .8;
+constexpr double max_overshot = .8;
 
 /// The area where the light can be.
 struct ReflectingArea {
@@ -48,13 +48,13 @@ struct ReflectingArea {
         }
         if (!(area > 0))
             area = total;
-        mean_reflectance = glm::min(mean_reflectance / area, Vec3(most_of_errors));
+        mean_reflectance = glm::min(mean_reflectance / area, Vec3(max_of_errors));
     }
 };
 
 /// The number of pairs of patches and emitters that are looked at. Emitters beyond these pairs, in
 /// the order of their power, count as a whole.
-constexpr std::size_t most_pairs = 10'000'000;
+constexpr std::size_t max_pairs = 10'000'000;
 
 /// Returns the power that would arrive at patches if nothing stood between them and the emitters,
 /// in W/m2 times area in local units. A sun sends most of its light elsewhere; the light of a scene
@@ -69,7 +69,7 @@ Vec3 power_to_patches(const Mesh& mesh) {
             emitters.push_back(e);
     std::ranges::stable_sort(emitters, std::greater{},
                              [&](std::uint32_t e) { return mean_of_channels(power_of(e)); });
-    const std::size_t looked_at = 1 + most_pairs / mesh.patches().size();
+    const std::size_t looked_at = 1 + max_pairs / mesh.patches().size();
     CompensatedSum<Vec3> power;
     for (std::size_t k = 0; k < emitters.size(); ++k) {
         const Patch& emitter = mesh.patches()[emitters[k]];
@@ -89,8 +89,8 @@ Vec3 power_to_patches(const Mesh& mesh) {
 /// Returns the radiosity that the mean patch will reflect in the end [W/m2].
 double mean_reflected(const Mesh& mesh) {
     const ReflectingArea reflecting(mesh);
-    const Vec3 rho = glm::clamp(reflecting.mean_reflectance, Vec3(least_reflectance_of_receivers),
-                                Vec3(most_reflectance));
+    const Vec3 rho = glm::clamp(reflecting.mean_reflectance, Vec3(min_reflectance_of_receivers),
+                                Vec3(max_reflectance));
     return mean_of_channels(power_to_patches(mesh) * rho / (1.0 - rho)) / reflecting.area;
 }
 
@@ -127,7 +127,7 @@ bool ProgressivePass::is_done() const {
     double left = 0;
     for (std::uint32_t i = 0; i < unshot_.size(); ++i)
         left += unshot_power(i);
-    const Reflected now = reflected(most_reflectance);
+    const Reflected now = reflected(max_reflectance);
     const double missing = left * mean_of_channels(now.gain);
     return !(missing > finished_share * mean_of_channels(now.power)) &&
            !(left > finished_share_of_emitted * mean_of_channels(emitted_));
@@ -154,7 +154,7 @@ void ProgressivePass::shoot(std::uint32_t step) {
     if (options_.overshoot) {
         // This is limited so that it converges, as over-relaxation by less than 2 does.
         const Vec3 later = glm::clamp(input_.mesh.material(shooter).reflectance * ambient(),
-                                      Vec3(0.0), glm::max(most_overshot * shot, 0.0));
+                                      Vec3(0.0), glm::max(max_overshot * shot, 0.0));
         shot += later;
         unshot_[shooter] = -later;
     }
@@ -247,7 +247,7 @@ void ProgressivePass::note_power_variance(const Vec3& shot, const ShotShares& sh
 ShotRays ProgressivePass::look_for_losses(std::uint32_t shooter, const Vec3& shot) {
     const double power = mean_of_channels(glm::abs(shot)) * input_.mesh.patches()[shooter].area;
     const double wanted = std::clamp(rays_per_light_ * power / mean_of_channels(emitted_),
-                                     least_lost_rays, most_lost_rays);
+                                     min_lost_rays, max_lost_rays);
     const auto count = std::bit_ceil(static_cast<std::uint32_t>(wanted));
     points_ += count;
     rays_ += count;
@@ -291,7 +291,7 @@ Estimate ProgressivePass::estimate() const {
     const Vec3 gain = 1.0 / ((1.0 - mean_reflectance_) * reflecting_area_);
     const Vec3 shared = gain * gain * power_variance_;
     // What is unshot may stay where the light is, as inside a lampshade.
-    const Reflected now = reflected(most_of_errors);
+    const Reflected now = reflected(max_of_errors);
     Vec3 share(0.0);
     for (int c = 0; c < 3; ++c)
         if (now.power[c] > 0)

@@ -15,7 +15,7 @@ namespace {
 
 /// Where more than this share is left to chance, factors are not scaled, as they would not be right
 /// on average. What was found must not decide it, for the same reason.
-constexpr double most_at_risk = .05;
+constexpr double max_at_risk = .05;
 
 } // namespace
 
@@ -63,7 +63,7 @@ ShotShares ShotBalance::balance(const FactorSum& factors, const ShotRays& rays) 
     all_.escaped += rays.escaped;
     all_.absorbed += rays.absorbed;
     const double lost = (rays.escaped + rays.absorbed) / rays.count;
-    if (!(sum > 0) || factors.at_risk > most_at_risk)
+    if (!(sum > 0) || factors.at_risk > max_at_risk)
         return {.scale = 1,
                 .lost = {rays.escaped / rays.count, rays.absorbed / rays.count},
                 .by_chance = 1 - sum - lost};

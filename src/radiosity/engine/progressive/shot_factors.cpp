@@ -16,7 +16,7 @@ constexpr std::size_t receivers_per_chunk = 256;
 
 /// Pairs that deserve less than this many rays are only looked at by chance, and then count for
 /// those that are not.
-constexpr double least_importance = .05;
+constexpr double min_importance = .05;
 
 } // namespace
 
@@ -94,13 +94,13 @@ ReceiverFactor ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot,
     if (!(rough > 0))
         return {};
     const Vec3 rho =
-        glm::max(input_.mesh.material(receiver).reflectance, least_reflectance_of_receivers);
+        glm::max(input_.mesh.material(receiver).reflectance, min_reflectance_of_receivers);
     // The error of a sum is least with rays in proportion to what each term contributes; an error
     // counts by the root of the area.
     const double importance = mean_of_channels(rho * glm::abs(shot)) * rough / mean_reflected_ *
                               std::sqrt(input_.mesh.patches()[receiver].area / mean_area_);
     const double rays = rays_per_light / std::sqrt(crowding_) * importance;
-    const double chance = std::min(rays / least_importance, 1.0);
+    const double chance = std::min(rays / min_importance, 1.0);
     const double at_risk = chance < 1 ? rough / crowding_ : 0;
     // This is the variance of a factor that is `rough` with a probability of 1 / crowding_, looked
     // at with the probability `chance`.

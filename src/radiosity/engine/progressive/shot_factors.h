@@ -59,6 +59,6 @@ class ShotFactors {
 };
 
 /// Black patches count as if they had this reflectance, since what they absorb must be known too.
-inline constexpr double least_reflectance_of_receivers = .1;
+inline constexpr double min_reflectance_of_receivers = .1;
 
 } // namespace hemilux

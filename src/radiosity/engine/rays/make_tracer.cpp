@@ -10,9 +10,9 @@ namespace {
 
 /// Finds the mean over some of the facets, at equal distances in their list.
 Crowd find_crowd(const Mesh& mesh, const WideBvh& tree) {
-    constexpr std::uint32_t most_facets = 512;
+    constexpr std::uint32_t max_facets = 512;
     const auto facets = static_cast<std::uint32_t>(mesh.soup().facets.size());
-    const std::uint32_t asked = std::min(facets, most_facets);
+    const std::uint32_t asked = std::min(facets, max_facets);
     Crowd crowd;
     std::size_t sum = 0, most = 0;
     for (std::uint32_t k = 0; k < asked; ++k) {

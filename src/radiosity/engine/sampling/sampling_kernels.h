@@ -13,18 +13,18 @@ namespace hemilux {
 enum class InstructionSet; // parallel/instruction_set.h
 
 inline constexpr std::size_t samples_per_block = 16;
-inline constexpr std::size_t most_dimensions = 5;
+inline constexpr std::size_t max_dimensions = 5;
 
 /// Sixteen consecutive points of a scrambled sequence: an aligned block. All words have their bits
 /// reversed.
 struct SobolBlockStart {
-    std::uint32_t seeds[most_dimensions];
-    std::uint32_t first[most_dimensions]; ///< of the block's first point, not scrambled
+    std::uint32_t seeds[max_dimensions];
+    std::uint32_t first[max_dimensions]; ///< of the block's first point, not scrambled
 };
 
 /// The xor of any point of a block to the first one.
 struct alignas(64) SobolSteps {
-    std::uint32_t step[most_dimensions][samples_per_block];
+    std::uint32_t step[max_dimensions][samples_per_block];
 };
 
 /// The patches that emit, in arrays by emitter. Lengths and areas are in local units.

@@ -8,7 +8,7 @@
 namespace hemilux {
 namespace {
 
-using Words = std::array<std::uint32_t, most_dimensions>; // one per dimension, bits reversed
+using Words = std::array<std::uint32_t, max_dimensions>; // one per dimension, bits reversed
 
 /// A primitive polynomial over GF(2) of some degree, with its inner coefficients as bits. It comes
 /// with the first direction integers of Joe and Kuo's table: the j + 1 bits of m[j] reversed.
@@ -16,7 +16,7 @@ struct Polynomial {
     unsigned degree, inner;
     std::array<std::uint32_t, 3> m;
 };
-constexpr std::array<Polynomial, most_dimensions - 1> polynomials{
+constexpr std::array<Polynomial, max_dimensions - 1> polynomials{
     {{1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 4}}, {3, 2, {1, 2, 4}}}};
 
 /// Returns direction number j of each dimension. Bits are reversed, as the scrambling wants them:
@@ -25,7 +25,7 @@ constexpr std::array<Words, 32> direction_numbers() {
     std::array<Words, 32> v{};
     for (unsigned j = 0; j < 32; ++j) {
         v[j][0] = 1u << j;
-        for (std::size_t d = 1; d < most_dimensions; ++d) {
+        for (std::size_t d = 1; d < max_dimensions; ++d) {
             const auto& [degree, inner, m] = polynomials[d - 1];
             if (j < degree) {
                 v[j][d] = m[j];
@@ -45,14 +45,14 @@ constexpr std::array<Words, 32> numbers = direction_numbers();
 constexpr Words word_of(std::uint32_t index) {
     Words word{};
     for (; index != 0; index &= index - 1)
-        for (std::size_t d = 0; d < most_dimensions; ++d)
+        for (std::size_t d = 0; d < max_dimensions; ++d)
             word[d] ^= numbers[static_cast<std::size_t>(std::countr_zero(index))][d];
     return word;
 }
 
 constexpr SobolSteps make_steps() {
     SobolSteps steps{};
-    for (std::size_t d = 0; d < most_dimensions; ++d)
+    for (std::size_t d = 0; d < max_dimensions; ++d)
         for (std::uint32_t k = 0; k < samples_per_block; ++k)
             steps.step[d][k] = word_of(k)[d];
     return steps;

@@ -12,7 +12,7 @@ namespace hemilux {
 namespace {
 
 /// The light that an iteration may leave below 0, as a share of the largest of all patches.
-constexpr double most_below = .1;
+constexpr double max_below = .1;
 
 /// The bounds of a number that may be unknown; -1 stands for what is not known.
 constexpr Bounds known_or_not{-1, bounds::largest};
@@ -25,12 +25,12 @@ std::optional<double> number_or_nothing(StateReader& state) {
 } // namespace
 
 void load_light(std::span<Vec3> light, double most, StateReader& state) {
-    state.get(light, {-most_below * most, most});
+    state.get(light, {-max_below * most, most});
     double largest = 0;
     for (const Vec3& each : light)
         largest = std::max({largest, each.x, each.y, each.z});
     for (const Vec3& each : light)
-        if (std::min({each.x, each.y, each.z}) < -most_below * largest)
+        if (std::min({each.x, each.y, each.z}) < -max_below * largest)
             throw StateError("a light in it is negative");
 }
 

@@ -16,10 +16,10 @@ namespace {
 
 /// The rays that one thread takes at a time: a part of those left in the bounce, so that no thread
 /// waits long for another at its end.
-constexpr double items_of_rest = 32, least_item = 256, largest_item = 8192;
+constexpr double items_of_rest = 32, min_item = 256, largest_item = 8192;
 constexpr std::uint32_t patches_per_item = 32;
 /// The number of work items listed at a time; a step of 1e9 rays per patch has millions.
-constexpr std::size_t most_items = 4096;
+constexpr std::size_t max_items = 4096;
 
 /// Returns the number of a ray among those of its patch. After 2^32 rays of one patch, numbers
 /// begin anew.
@@ -62,9 +62,9 @@ void Bounces::cut_line(Place& next) {
         return static_cast<std::uint32_t>(std::ranges::lower_bound(rays_before_, ray) -
                                           rays_before_.begin() - 1);
     };
-    for (double& from = next.ray; from < end && items_.size() < most_items;) {
+    for (double& from = next.ray; from < end && items_.size() < max_items;) {
         const double size =
-            std::clamp(std::ceil((end - from) / items_of_rest), least_item, largest_item);
+            std::clamp(std::ceil((end - from) / items_of_rest), min_item, largest_item);
         const double to = std::min(from + size, end);
         items_.push_back({sender_of(from + 1), sender_of(to) + 1, from, to});
         from = to;
@@ -76,7 +76,7 @@ void Bounces::cut_line(Place& next) {
 void Bounces::cut_same_number(Place& next) {
     const auto senders = static_cast<std::uint32_t>(senders_.size());
     const bool whole = input_.options.rays <= largest_item;
-    while (next.sender < senders && items_.size() < most_items) {
+    while (next.sender < senders && items_.size() < max_items) {
         const std::uint32_t last = std::min(next.sender + (whole ? patches_per_item : 1), senders);
         const double end = std::numeric_limits<double>::infinity();
         const bool is_last = whole || next.ray + largest_item >= input_.options.rays;

@@ -50,7 +50,7 @@ void ShootingSolver::save_more(StateWriter& state) const {
 /// Refuses a state with far too many rays: on average over all power, a strategy gives about as
 /// many rays as power alone would.
 void ShootingSolver::load_more(StateReader& state) {
-    constexpr double most_times = 1e3;
+    constexpr double max_times = 1e3;
     StepHook* const hook = tools_.strategy->step_hook();
     if (!hook)
         return;
@@ -62,7 +62,7 @@ void ShootingSolver::load_more(StateReader& state) {
         power += of_patch;
         rays += of_patch * hook->rays_for_power(i);
     }
-    if (!(rays <= most_times * power))
+    if (!(rays <= max_times * power))
         throw StateError("its patches would trace far more rays than are asked for");
 }
 

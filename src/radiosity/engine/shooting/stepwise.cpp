@@ -131,17 +131,17 @@ void StepwiseSolver::gather_ahead() {
 /// that none waits long for another. It returns no more than are still wanted. In large scenes a
 /// single step keeps all threads of a rank busy, and several would take much memory.
 unsigned StepwiseSolver::side_by_side() const {
-    constexpr std::size_t most_patches = 100'000;
-    constexpr double seconds_ahead = .5, most_each = 16;
+    constexpr std::size_t max_patches = 100'000;
+    constexpr double seconds_ahead = .5, max_each = 16;
     if (!steps_are_alike())
         return 1;
     const Ranks& ranks = ranks_of(input_.monitor.interrupted);
     const unsigned threads = ranks.of_first(workers_.threads());
     const bool several = threads * ranks.count() > 1;
     double of_rank = 1;
-    if (several && input_.mesh.patches().size() <= most_patches) {
+    if (several && input_.mesh.patches().size() <= max_patches) {
         const double each = seconds_per_step_ > 0 ? seconds_ahead / seconds_per_step_ : 1;
-        of_rank = threads * std::floor(std::clamp(each, 1.0, most_each));
+        of_rank = threads * std::floor(std::clamp(each, 1.0, max_each));
     }
     return static_cast<unsigned>(std::min(steps_to_come(), of_rank * ranks.count()));
 }
@@ -233,13 +233,13 @@ void StepwiseSolver::save(StateWriter& state) const {
 /// infinite where rays are not equal. A step shoots about the emitted power, or as many times as
 /// much as there are bounces (check_bounces).
 void StepwiseSolver::check_ray_power() const {
-    constexpr double least_times = 1e-3, most_times = 1e9;
+    constexpr double min_times = 1e-3, max_times = 1e9;
     const double ray_power = mean_.ray_power, emitted = mean_.emitted();
     const double once =
         emitted / (input_.options.rays * static_cast<double>(input_.mesh.patches().size()));
     const bool equal = mean_.equal_rays() && emitted > 0;
     const bool fits = ray_power == 0 ? mean_.solution.steps == 0
-                      : equal ? ray_power >= least_times * once && ray_power <= most_times * once
+                      : equal ? ray_power >= min_times * once && ray_power <= max_times * once
                               : ray_power > bounds::largest;
     if (!fits)
         throw StateError("the power of a ray is none of this scene's");

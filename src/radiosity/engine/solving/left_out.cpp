@@ -41,7 +41,7 @@ std::vector<LeftOut> left_out_of(const Needs& needs, const MethodWork& work) {
     if (!needs.tree)
         list.push_back({"the bounding volume hierarchy",
                         "all are tested at once, as there are no more than " +
-                            std::to_string(most_triangles_without_tree) +
+                            std::to_string(max_triangles_without_tree) +
                             " triangles (or halves of quads)",
                         "visits to boxes"});
     return list;

@@ -57,7 +57,7 @@ struct Method {
     /// Makes the same on one page, slow and obviously right (plain/plain.h); nullptr where there is
     /// none.
     std::unique_ptr<Solver> (*plain)(const SolverInput&) = nullptr;
-    std::size_t most_plain_patches = std::numeric_limits<std::size_t>::max(); ///< of its page
+    std::size_t max_plain_patches = std::numeric_limits<std::size_t>::max(); ///< of its page
     std::optional<Role> role = {};
     /// Returns whether --for changes it; nullptr: it never does.
     bool (*aims)() = nullptr;

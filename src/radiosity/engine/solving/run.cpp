@@ -12,10 +12,10 @@ namespace {
 
 /// The largest ratio that is expected of the time of a step to that of the longest before, where
 /// steps grow.
-constexpr double most_growth = 2;
+constexpr double max_growth = 2;
 
 /// The least time [s] that a run gives its steps, so that the shortest limit is enough for one.
-constexpr double least_seconds = 1;
+constexpr double min_seconds = 1;
 
 } // namespace
 
@@ -43,7 +43,7 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
         return true;
     std::optional<double> time_left;
     if (stop.seconds)
-        time_left = std::max(*stop.seconds - last, least_seconds);
+        time_left = std::max(*stop.seconds - last, min_seconds);
     StopFlag& interrupted = input.monitor.interrupted;
     const TimeLimit limit(interrupted, time_left);
     for (std::uint32_t step = before.steps + 1;; ++step) {
@@ -55,7 +55,7 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
         if (after_step)
             after_step(record, solution);
         const double took = record.seconds - last;
-        growth = longest > 0 ? std::clamp(took / longest, 1.0, most_growth) : 1;
+        growth = longest > 0 ? std::clamp(took / longest, 1.0, max_growth) : 1;
         longest = std::max(longest, took);
         last = record.seconds;
         if (done(step, record.seconds, record.estimated_error))

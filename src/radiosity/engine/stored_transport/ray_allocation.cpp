@@ -10,12 +10,12 @@
 namespace hemilux {
 namespace {
 
-constexpr double least_share = 1.0 / 8;
+constexpr double min_share = 1.0 / 8;
 
 /// The least share of what is expected for a patch, where patches are not of the same importance.
 /// With an eighth, patches with many rays inherit too much of what those with few are off by
 /// (docs/making/design.md, D57).
-constexpr double least_of_expected = 1.0 / 4;
+constexpr double min_of_expected = 1.0 / 4;
 
 /// Returns the power of two nearest to a number, in logarithms: the largest up to sqrt(2) rays.
 std::uint32_t power_of_two(double rays) {
@@ -51,9 +51,9 @@ std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double m
         return rays;
     const std::vector<double> weights = rounded(given, largest);
     const double most =
-        most_share_of_rays * (expected.empty() ? 1 : *std::ranges::max_element(expected));
+        max_share_of_rays * (expected.empty() ? 1 : *std::ranges::max_element(expected));
     const auto least = [&](std::uint32_t i) {
-        return expected.empty() ? least_share : least_of_expected * expected[i];
+        return expected.empty() ? min_share : min_of_expected * expected[i];
     };
     const auto rays_of = [&](std::uint32_t i, double per_weight) {
         const double share = std::clamp(per_weight * weights[i], least(i) * mean, most * mean);
@@ -72,7 +72,7 @@ std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double m
     // Where as many are allocated at both ends, all patches get as many at one as at the other.
     const double all =
         mean * double(std::ranges::count_if(weights, [](double weight) { return weight > 0; }));
-    double low = std::log(least_share * mean), high = low + 80;
+    double low = std::log(min_share * mean), high = low + 80;
     std::uint64_t sum_low = allocate(low), sum_high = allocate(high);
     for (int k = 0; k < 50 && sum_low < sum_high; ++k) {
         const double middle = (low + high) / 2;

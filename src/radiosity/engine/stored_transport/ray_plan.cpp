@@ -13,18 +13,18 @@ namespace hemilux {
 namespace {
 
 /// The rays per patch at which the run ends, whatever the error.
-constexpr double most_rays = 1u << 20;
+constexpr double max_rays = 1u << 20;
 
 /// The most rays of a step towards an error, over those before: more at once would trust the first
 /// few rays too much.
-constexpr double most_growth = 4;
+constexpr double max_growth = 4;
 
 /// The part of an error asked for that a step is to reach, so that the run seldom takes one more.
 constexpr double aim_below = .97;
 
 /// The least rays of a step towards an error, over those before; and the factor from one number to
 /// the next that is tried.
-constexpr double least_step = 1.1, try_next = 1.04;
+constexpr double min_step = 1.1, try_next = 1.04;
 
 /// The share of the mean of shadow rays that a patch gets which no light has reached. It gets few,
 /// but not none, as an emitter may shine through a gap that all of them have missed.
@@ -32,7 +32,7 @@ constexpr double share_of_unlit = 1.0 / 8;
 
 /// The least mean of a first step with a target, of one batch: the search for what light can reach
 /// takes a ray of each patch.
-constexpr double least_first = 1.5;
+constexpr double min_first = 1.5;
 
 /// With a target, the first step has so many times as many rays as patches of the target would get
 /// if all were the target. More waste rays before it is known where they count. Fewer take one more
@@ -42,26 +42,26 @@ constexpr double times_in_first = 4;
 /// A first step with a target has at most so large a part of the rays of one without. The others
 /// wait until it is known where they count. Where the target is nearly all of the scene, there is
 /// less to wait for.
-constexpr double most_of_first = 1.0 / 3;
+constexpr double max_of_first = 1.0 / 3;
 
 /// With a target, each of the two kinds gets at least this part of the rays that are added. How
 /// much of the error comes from which kind is known of the target's own rays, and less of others'.
-constexpr double least_of_kind = 1.0 / 4;
+constexpr double min_of_kind = 1.0 / 4;
 
 /// Throws StateError for rays that cannot have been allocated with this mean (ray_allocation.h). A
-/// patch has at most sqrt(2) times `most_share_of_rays` of what is expected for it, and all have
+/// patch has at most sqrt(2) times `max_share_of_rays` of what is expected for it, and all have
 /// more than a small part of the mean.
-void check_allocated(std::span<const std::uint32_t> rays, double mean, double most_expected) {
-    constexpr double least_share = 1.0 / 64;
-    const double most_share = 1.5 * most_share_of_rays * most_expected;
+void check_allocated(std::span<const std::uint32_t> rays, double mean, double max_expected) {
+    constexpr double min_share = 1.0 / 64;
+    const double max_share = 1.5 * max_share_of_rays * max_expected;
     double sum = 0, count = 0;
     for (const std::uint32_t of_patch : rays) {
-        if (of_patch > std::max(1.0, most_share * mean))
+        if (of_patch > std::max(1.0, max_share * mean))
             throw StateError("a patch has more rays than were planned");
         sum += of_patch;
         count += of_patch > 0;
     }
-    if (count > 0 && sum < least_share * mean * count)
+    if (count > 0 && sum < min_share * mean * count)
         throw StateError("the patches have fewer rays than were planned");
 }
 
@@ -70,7 +70,7 @@ void check_allocated(std::span<const std::uint32_t> rays, double mean, double mo
 RayPlan::RayPlan(const Mesh& mesh, const Needs& needs, double random, double to_emitters,
                  const RayGoal& goal)
     : weights_(mesh, needs), goal_(goal) {
-    first_.random = std::clamp(random, 1.0, most_rays);
+    first_.random = std::clamp(random, 1.0, max_rays);
     first_.to_emitters = to_emitters > 0 ? first_.random : 0;
     now_.rays.random.resize(mesh.patches().size());
     now_.rays.to_emitters.resize(mesh.patches().size());
@@ -121,10 +121,10 @@ double RayPlan::first_mean(double mean) const {
     if (!has_target() || !goal_.growing)
         return mean;
     const double sum = std::accumulate(aim_.begin(), aim_.end(), 0.0);
-    const double least = std::min(least_first, mean);
+    const double least = std::min(min_first, mean);
     const double share = std::min(sum / double(aim_.size()), 1.0);
     return std::clamp(times_in_first * share * mean, least,
-                      std::max(std::max(most_of_first, share) * mean, least));
+                      std::max(std::max(max_of_first, share) * mean, least));
 }
 
 void RayPlan::grow(const ErrorSoFar& known, double room, const Workers& workers) {
@@ -158,10 +158,10 @@ void RayPlan::choose(const ErrorSoFar& known) {
         return split(rays + first_.random + first_.to_emitters, known);
     if (!(goal_.aim > 0))
         return split(2 * rays, known);
-    double factor = least_step;
+    double factor = min_step;
     do
         split(factor * rays, known);
-    while (!(predicted(known) <= aim_below * goal_.aim) && (factor *= try_next) <= most_growth);
+    while (!(predicted(known) <= aim_below * goal_.aim) && (factor *= try_next) <= max_growth);
 }
 
 /// Splits so many rays in all between the two kinds so that the error is least. Variances are taken
@@ -178,7 +178,7 @@ void RayPlan::split(double rays, const ErrorSoFar& known) {
     const double to_emitters = due(known.variance_from_emitters, before_.to_emitters);
     const double share = random + to_emitters > 0 ? random / (random + to_emitters) : .5;
     const double added = rays - before_.random - before_.to_emitters;
-    const double least = has_target() ? least_of_kind * added : 0;
+    const double least = has_target() ? min_of_kind * added : 0;
     now_.random =
         std::clamp(share * rays, before_.random + least, rays - before_.to_emitters - least);
     now_.to_emitters = rays - now_.random;
@@ -194,7 +194,7 @@ double RayPlan::predicted(const ErrorSoFar& known) const {
     return known.relative * std::sqrt(left);
 }
 
-bool RayPlan::at_most() const { return std::max(now_.random, now_.to_emitters) >= most_rays; }
+bool RayPlan::at_most() const { return std::max(now_.random, now_.to_emitters) >= max_rays; }
 
 /// Saves what was planned, and what is known of the patches; the rest follows from the scene.
 void RayPlan::save(StateWriter& state) const {
@@ -210,14 +210,14 @@ void RayPlan::save(StateWriter& state) const {
 void RayPlan::load(StateReader& state) {
     for (RayBudget* stage : {&before_, &now_}) {
         for (double* mean : {&stage->random, &stage->to_emitters})
-            state.get(*mean, {0, most_growth * most_rays});
+            state.get(*mean, {0, max_growth * max_rays});
         stage->rays.random.resize(weights_.random().size());
         stage->rays.to_emitters.resize(weights_.random().size());
         state.get(std::span(stage->rays.random));
         state.get(std::span(stage->rays.to_emitters));
-        const double most_expected = has_target() ? double(aim_.size()) : 1;
-        check_allocated(stage->rays.random, stage->random, most_expected);
-        check_allocated(stage->rays.to_emitters, stage->to_emitters, most_expected);
+        const double max_expected = has_target() ? double(aim_.size()) : 1;
+        check_allocated(stage->rays.random, stage->random, max_expected);
+        check_allocated(stage->rays.to_emitters, stage->to_emitters, max_expected);
     }
     if (before_.random > now_.random || before_.to_emitters > now_.to_emitters)
         throw StateError("the plan of rays does not grow");

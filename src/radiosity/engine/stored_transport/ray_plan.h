@@ -62,7 +62,7 @@ class RayPlan {
     /// for the first step.
     void grow(const ErrorSoFar& known, double room, const Workers& workers);
     /// There is no step with less room than this.
-    static constexpr double least_growth = 1.19;
+    static constexpr double min_growth = 1.19;
 
     /// Returns the rays, counted from the start until the next step ends.
     [[nodiscard]] const PlannedRays& rays() const { return now_.rays; }

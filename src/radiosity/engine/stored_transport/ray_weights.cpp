@@ -16,7 +16,7 @@ namespace {
 constexpr double trust = .5, area_exponent = .42;
 
 /// Black emitters count as if they reflected this: their rays show where their light goes.
-constexpr double least_reflectance = .1;
+constexpr double min_reflectance = .1;
 
 } // namespace
 
@@ -31,7 +31,7 @@ RayWeights::RayWeights(const Mesh& mesh, const Needs& needs) : mesh_(mesh) {
         const double counted = std::min(mesh.patches()[i].area, largest);
         const double area = needs.power(i) ? std::pow(counted, area_exponent) : 0;
         prior_to_emitters_.push_back(area * reflectance);
-        prior_random_.push_back(area * std::max(reflectance, least_reflectance));
+        prior_random_.push_back(area * std::max(reflectance, min_reflectance));
     }
     random_ = learned_random_ = prior_random_;
     to_emitters_ = prior_to_emitters_;

@@ -18,7 +18,7 @@ constexpr double left_of_batches = .1, left_of_all = 1e-3;
 
 /// The limits of residuals, relative to the light: the first is the least. The second, times what a
 /// reflection takes away, is the largest for the batches.
-constexpr double least_residual = 1e-10, first_residual = 1e-3;
+constexpr double min_residual = 1e-10, first_residual = 1e-3;
 
 /// Returns the variance of a single one of the values.
 Vec3 sample_variance(std::span<const Vec3> values) {
@@ -61,7 +61,7 @@ TransportSystem::Solved TransportSystem::solve(const StoredRays& rays, double er
     const Vec3 variance = sample_variance(power);
     // What a residual makes of the light is no larger than its sum over all reflections.
     const double known = std::fmin(left_of_batches * error, first_residual); // unknown: the latter
-    const double residual = std::max(known * lost_at_least_, least_residual);
+    const double residual = std::max(known * lost_at_least_, min_residual);
     std::vector<double> left(batches + 1); // residuals that are too large
     for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
         left[batch] = solve(parts[batch], std::move(direct[batch]), variance, light[batch], own,
@@ -71,9 +71,9 @@ TransportSystem::Solved TransportSystem::solve(const StoredRays& rays, double er
     const double tolerance = left_of_all * average(light) * lost_at_least_;
     left[batches] = solve(all, straight_light(all, rays.direct(), std::nullopt, workers),
                           variance / double(batches), light[batches], workers,
-                          std::max(tolerance, least_residual), interrupted);
-    const double most_left = *std::ranges::max_element(left);
-    const double unsolved = most_left > 0 ? unsolved_error(most_left, lost_at_least_) : 0;
+                          std::max(tolerance, min_residual), interrupted);
+    const double max_left = *std::ranges::max_element(left);
+    const double unsolved = max_left > 0 ? unsolved_error(max_left, lost_at_least_) : 0;
     return {std::move(all), unsolved};
 }
 

@@ -188,12 +188,12 @@ void Division::measure(const Solution& light, double goal) {
 
 /// Measures some patches, by new points each time.
 void Division::measure(const Solution& light, std::span<const std::uint32_t> some, unsigned rounds,
-                       unsigned most_rows, double stand_for) {
+                       unsigned max_rows, double stand_for) {
     const LightWithinPatches found =
         light_within_patches({mesh_, tracer_, light}, some,
                              {.rounds = rounds,
                               .rays = rays_of_estimate(options_.error),
-                              .most_rows = most_rows,
+                              .max_rows = max_rows,
                               .seed = hash_words({options_.seed, 2, measured_++})},
                              workers_, monitor_.interrupted);
     rays_ += found.rays;
@@ -232,10 +232,10 @@ bool Division::cut(Solution& light, double goal) {
     for (std::size_t i = 0; i < before; ++i)
         that_count.push_back(counts(i) * square_[i]);
     const std::vector<std::uint8_t> levels = levels_of_division(
-        that_count, {.goal = goal,
-                     .least_pieces = times(tuned::min_growth),
-                     .most_pieces = std::min(options_.most_patches,
-                                             times(tuned::max_growth) + tuned::min_room)});
+        that_count,
+        {.goal = goal,
+         .min_pieces = times(tuned::min_growth),
+         .max_pieces = std::min(options_.max_patches, times(tuned::max_growth) + tuned::min_room)});
     if (std::ranges::none_of(levels, [](std::uint8_t level) { return level > 0; }))
         return false;
     std::vector<Vec3> emission; // of a texture, which differs from piece to piece

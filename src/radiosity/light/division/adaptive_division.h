@@ -26,7 +26,7 @@ struct AdaptiveDivision {
     /// The relative error of the light that the division alone may leave [-].
     double error = .05;
     /// The number of patches that is not exceeded.
-    std::size_t most_patches = 1'000'000;
+    std::size_t max_patches = 1'000'000;
     std::uint64_t seed = 1;
     unsigned threads = 0;     ///< 0: one per core. The result does not depend on it.
     std::uint64_t memory = 0; ///< bytes that a solution may use for its rays; 0: no limit
@@ -80,7 +80,7 @@ class Division {
     }
     void measure(const Solution& light, double goal);
     void measure(const Solution& light, std::span<const std::uint32_t> some, unsigned rounds,
-                 unsigned most_rows, double stand_for = 1);
+                 unsigned max_rows, double stand_for = 1);
     [[nodiscard]] bool is_done(double goal) const;
     [[nodiscard]] bool cut(Solution& light, double goal);
 

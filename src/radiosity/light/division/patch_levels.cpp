@@ -6,7 +6,7 @@
 namespace hemilux {
 namespace {
 
-constexpr std::uint8_t most_levels = 2;
+constexpr std::uint8_t max_levels = 2;
 
 /// The share of a squared error that a level leaves: a quarter where light changes evenly, a half
 /// along the edge of a shadow.
@@ -15,7 +15,7 @@ constexpr double left_by_level = .4, pieces_of_level = 4;
 /// Returns the levels until no piece has an error of more than `bound`.
 std::uint8_t levels_to(double square, double bound) {
     std::uint8_t levels = 0;
-    for (; levels < most_levels && square > bound; ++levels)
+    for (; levels < max_levels && square > bound; ++levels)
         square *= left_by_level / pieces_of_level;
     return levels;
 }
@@ -46,14 +46,14 @@ std::vector<std::uint8_t> levels_of_division(std::span<const double> square,
     double bound = largest;
     for (double next = bound; next > least * largest; next *= step) {
         const Outcome outcome = outcome_of(square, next);
-        if (outcome.pieces > static_cast<double>(options.most_pieces))
+        if (outcome.pieces > static_cast<double>(options.max_pieces))
             break;
         bound = next;
         const bool is_enough = outcome.square <= options.goal ||
                                // This is the error of all pieces together, if each has that of the
                                // bound.
                                bound * outcome.pieces <= options.goal;
-        if (is_enough && outcome.pieces >= static_cast<double>(options.least_pieces))
+        if (is_enough && outcome.pieces >= static_cast<double>(options.min_pieces))
             break;
     }
     for (std::size_t i = 0; i < square.size(); ++i)

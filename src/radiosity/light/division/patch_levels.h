@@ -11,7 +11,7 @@ namespace hemilux {
 struct LevelOptions {
     double goal; ///< of the sum of all squared errors
     /// These bound how many pieces the patches become.
-    std::size_t least_pieces, most_pieces;
+    std::size_t min_pieces, max_pieces;
 };
 
 /// Returns the levels of division by patch, 0 to 2: each level makes four pieces of one. `square`

@@ -13,7 +13,7 @@ namespace {
 constexpr double share_of_surface = 1. / 16;
 
 /// The most bright patches: more chances take longer than the rays of the points that share them.
-constexpr std::size_t most_patches = 4096;
+constexpr std::size_t max_patches = 4096;
 
 } // namespace
 
@@ -28,7 +28,7 @@ BrightPatches::BrightPatches(const Mesh& mesh, std::span<const Vec3> radiosity,
     }
     std::vector<std::uint32_t> order(radiosity.size());
     std::iota(order.begin(), order.end(), 0u);
-    const std::size_t some = std::min(order.size(), most_patches);
+    const std::size_t some = std::min(order.size(), max_patches);
     std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(some),
                               [&](std::uint32_t a, std::uint32_t b) {
                                   return light[a] != light[b] ? light[a] > light[b] : a < b;

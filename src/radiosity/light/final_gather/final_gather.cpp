@@ -18,7 +18,7 @@ namespace {
 
 /// The number of rays that are traced together; fewer take longer each. A thread or rank takes as
 /// many points as have so many rays, 16 at most.
-constexpr std::size_t rays_per_batch = 4096, most_points_per_chunk = 16;
+constexpr std::size_t rays_per_batch = 4096, max_points_per_chunk = 16;
 
 } // namespace
 
@@ -33,7 +33,7 @@ std::vector<Vec3> FinalGather::irradiance(std::span<const SurfacePoint> points,
     const std::size_t rays_of_point =
         estimates * rounds_ * (std::size_t{random_rays_} + shadow_rays_);
     const std::size_t points_per_chunk =
-        std::clamp<std::size_t>(rays_per_batch / rays_of_point, 1, most_points_per_chunk);
+        std::clamp<std::size_t>(rays_per_batch / rays_of_point, 1, max_points_per_chunk);
     const OwnBlocks own(ranks_at_work(interrupted), points.size(), points_per_chunk);
     std::optional<OnThisRank> on_this_rank(interrupted);
     std::atomic<std::uint64_t> traced{0};

@@ -13,13 +13,13 @@ namespace {
 
 /// The distance, in sides of a square of a patch's area, below which the patch is not taken to send
 /// the same light, or a linear function, all over. The light that it reflects there is gathered
-/// too, `most_bounces` times at most.
+/// too, `max_bounces` times at most.
 constexpr double near_sides = .5;
-constexpr unsigned most_bounces = 8;
+constexpr unsigned max_bounces = 8;
 
 /// The largest share of paths that go on where they end by chance alone: otherwise they would not
 /// end in a closed room of reflectance 1.
-constexpr double most_kept = .9;
+constexpr double max_kept = .9;
 
 } // namespace
 
@@ -66,7 +66,7 @@ GatherPaths::Met GatherPaths::where_met(const PathRays& rays, std::size_t k,
 }
 
 bool GatherPaths::is_near(const Met& met, unsigned bounce) const {
-    return find_ != Find::spread_however_near && bounce < most_bounces &&
+    return find_ != Find::spread_however_near && bounce < max_bounces &&
            met.distance * met.distance < near_sides * near_sides * mesh_.patches()[met.patch].area;
 }
 
@@ -94,7 +94,7 @@ void GatherPaths::go_on(const PathRays::State& from, const Met& met, bool in_gat
     // Russian roulette (Arvo and Kirk 1990) keeps the paths in narrow gaps and bright rooms short.
     const Vec3& rho = mesh_.material(on).reflectance;
     const double kept =
-        std::min(std::max({rho.x, rho.y, rho.z}), find_ == Find::light ? 1 : most_kept);
+        std::min(std::max({rho.x, rho.y, rho.z}), find_ == Find::light ? 1 : max_kept);
     if (Rng(hash_words({from.seed, 2})).uniform() >= kept)
         return;
     const SurfacePoint at{met.point, on.normal, on.facet, met.patch};

@@ -30,7 +30,7 @@ LightWithinPatches light_within_patches(const LightSource& light,
     for (std::size_t done = 0; done < patches.size() && !interrupted; done += patches_at_a_time) {
         const auto some = patches.subspan(done, std::min(patches_at_a_time, patches.size() - done));
         const std::vector<PatchPoint> points =
-            points_on_patches(light.mesh, some, options.most_rows, hash_words({options.seed, 0}));
+            points_on_patches(light.mesh, some, options.max_rows, hash_words({options.seed, 0}));
         std::vector<SurfacePoint> at;
         std::vector<std::uint64_t> streams;
         for (const PatchPoint& point : points) {
@@ -42,7 +42,7 @@ LightWithinPatches light_within_patches(const LightSource& light,
         for (std::size_t k = 0, begin = 0, end = 0; k < some.size(); ++k, begin = end) {
             while (end < points.size() && points[end].patch == some[k])
                 ++end;
-            if (end - begin < LinearLight::least_points)
+            if (end - begin < LinearLight::min_points)
                 continue;
             const Patch& patch = light.mesh.patches()[some[k]];
             const LinearLight found(patch, std::span(points).subspan(begin, end - begin),

@@ -36,7 +36,7 @@ struct WithinOptions {
     /// squares are less noisy too.
     unsigned rays = 8;
     /// Limits the rows of points on large patches; at least 3.
-    unsigned most_rows = 8;
+    unsigned max_rows = 8;
     std::uint64_t seed = 1;
 };
 

@@ -29,7 +29,7 @@ class LinearLight {
     [[nodiscard]] const std::array<Slope, 2>& slopes() const { return slope_; }
 
     /// Fewer points leave nothing to judge a linear function by.
-    static constexpr std::size_t least_points = 4;
+    static constexpr std::size_t min_points = 4;
 
   private:
     [[nodiscard]] double count() const { return static_cast<double>(at_.size()); }

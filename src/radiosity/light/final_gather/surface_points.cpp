@@ -73,8 +73,8 @@ std::vector<double> mixed_density(const Mesh& mesh, std::span<const double> weig
 }
 
 std::vector<PatchPoint> points_on_patches(const Mesh& mesh, std::span<const std::uint32_t> some,
-                                          unsigned most_rows, std::uint64_t seed) {
-    constexpr double least_rows = 3;
+                                          unsigned max_rows, std::uint64_t seed) {
+    constexpr double min_rows = 3;
     const auto patches = mesh.patches();
     double area = 0, count = 0;
     for (std::uint32_t i = 0; i < patches.size(); ++i)
@@ -90,8 +90,8 @@ std::vector<PatchPoint> points_on_patches(const Mesh& mesh, std::span<const std:
         Rng rng(hash_words({seed, i}));
         // The number goes by the side of a square of the patch's area, against one of the mean.
         const double rows =
-            std::clamp(std::round(least_rows * std::sqrt(patches[i].area * count / area)),
-                       least_rows, double(most_rows));
+            std::clamp(std::round(min_rows * std::sqrt(patches[i].area * count / area)), min_rows,
+                       double(max_rows));
         for (double row = 0; row < rows; ++row)
             for (double column = 0; column < rows; ++column) {
                 const double u = (column + rng.uniform()) / rows, v = (row + rng.uniform()) / rows;

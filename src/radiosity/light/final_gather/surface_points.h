@@ -49,11 +49,11 @@ class PointsOverSurface {
 mixed_density(const Mesh& mesh, std::span<const double> weight,
               std::initializer_list<std::span<const double>> quantities);
 
-/// Returns `rows` x `rows` points of each of some patches, if it reflects, 3 x 3 to `most_rows`
+/// Returns `rows` x `rows` points of each of some patches, if it reflects, 3 x 3 to `max_rows`
 /// squared. They follow each other, each uniform over an equal piece of the patch. There are more
 /// where the patch is large beside the mean of all.
 [[nodiscard]] std::vector<PatchPoint> points_on_patches(const Mesh& mesh,
                                                         std::span<const std::uint32_t> some,
-                                                        unsigned most_rows, std::uint64_t seed);
+                                                        unsigned max_rows, std::uint64_t seed);
 
 } // namespace hemilux

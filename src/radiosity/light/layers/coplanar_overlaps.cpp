@@ -21,7 +21,7 @@ constexpr double rounding = 0x1p-36;
 /// Facets narrower than this [local units] have no reliable normal.
 constexpr double narrowest = 0x1p-21;
 /// Two facets that share less than this part of the smaller one's area are neighbours, not layers.
-constexpr double least_share = 0x1p-13;
+constexpr double min_share = 0x1p-13;
 
 /// Calls use(cell) for the cells of a facet's plane; for none if the facet is too narrow. A plane
 /// is identified by its point nearest to a place through which hardly any plane goes. Its three
@@ -85,7 +85,7 @@ bool lie_in_one_place(const Polygon& a, const Polygon& b) {
         return false;
     const FlatPolygon common = common_part(outline_a, outline_b);
     const double smaller = std::min(std::abs(normal_a[axis]), std::abs(normal_b[axis]));
-    if (!(common.area() > least_share * smaller))
+    if (!(common.area() > min_share * smaller))
         return false;
     return std::all_of(common.corner.begin(),
                        common.corner.begin() + static_cast<std::ptrdiff_t>(common.size),
@@ -181,8 +181,7 @@ std::optional<std::vector<Overlap>> few_near(std::vector<Rectangle>& seen) {
 class Finder {
   public:
     Finder(const Scene& scene, std::span<const Vec3> vertices, const OverlapLimits& limits)
-        : scene_(scene), vertices_(vertices), left_(limits.comparisons), most_pairs_(limits.pairs) {
-    }
+        : scene_(scene), vertices_(vertices), left_(limits.comparisons), max_pairs_(limits.pairs) {}
 
     Overlaps find() {
         found_.buried = find_buried(scene_, vertices_);
@@ -293,7 +292,7 @@ class Finder {
 
     /// Compares the shapes of a pair. Returns false where enough has been compared.
     bool compare(const Overlap& pair) {
-        if (left_ == 0 || found_.pairs.size() >= most_pairs_)
+        if (left_ == 0 || found_.pairs.size() >= max_pairs_)
             return false;
         --left_;
         if (lie_in_one_place(shape(pair.a), shape(pair.b)))
@@ -305,7 +304,7 @@ class Finder {
     std::span<const Vec3> vertices_;
     /// Comparisons of boxes that cost as much as one of shapes.
     static constexpr std::size_t boxes_per_comparison = 16;
-    std::size_t left_, most_pairs_;
+    std::size_t left_, max_pairs_;
     std::vector<bool> is_buried_; ///< by facet; empty where none is
     Overlaps found_;
 };

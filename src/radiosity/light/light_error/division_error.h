@@ -51,7 +51,7 @@ struct DivisionErrorOptions {
     std::uint64_t seed = 1;
     /// Points are added until the error is known (DivisionError::is_known), or so many rays were
     /// traced; but there are always at least five hundred points.
-    std::uint64_t most_rays = 1'000'000;
+    std::uint64_t max_rays = 1'000'000;
     double negligible = 0; ///< relative error [-]
     /// The squared errors by patch [local area x (W/m2)^2], as far as they are known, or empty.
     /// Where they are large and count, more points are drawn.

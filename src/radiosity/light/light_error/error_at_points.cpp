@@ -19,7 +19,7 @@ namespace {
 
 /// The least number of rounds of points: many, since the spread of a few would end them when it
 /// happens to be small.
-constexpr std::size_t least_rounds = 16;
+constexpr std::size_t min_rounds = 16;
 
 /// The most points times the length of gathers in a round.
 constexpr std::size_t longest_round = 4096;
@@ -47,8 +47,8 @@ struct Rounds {
 /// light is much the same everywhere.
 struct Manner {
     /// The points of a round at first. Where gathers are longer, there are fewer by their length,
-    /// but at least `least_points`.
-    std::size_t points_per_round, least_points;
+    /// but at least `min_points`.
+    std::size_t points_per_round, min_points;
     /// The relative uncertainty of the squared error at which it is known well enough. Where few
     /// places hold it, what is known of its spread is uncertain itself.
     double well_known;
@@ -104,9 +104,9 @@ SquaredError ErrorAtPoints::find(const OtherError& other, const Manner& manner,
                                  const DivisionErrorOptions& options) const {
     // For f times less noise, longer gathers, which begin anew, cost f times the rays so far, and
     // more points f^2 - 1 times.
-    constexpr double barely_negligible = .01, growth_pays = 1.6, least_growth = 2, most_growth = 4;
+    constexpr double barely_negligible = .01, growth_pays = 1.6, min_growth = 2, max_growth = 4;
     const double negligible = options.negligible * options.negligible;
-    const auto longest = double(longest_round / manner.least_points);
+    const auto longest = double(longest_round / manner.min_points);
     double length = 1;
     std::size_t points = manner.points_per_round;
     Rounds rounds, noise;
@@ -117,7 +117,7 @@ SquaredError ErrorAtPoints::find(const OtherError& other, const Manner& manner,
             return {};
         rounds.add(sums.error / size_);
         noise.add(sums.by_noise / (size_ * size_));
-        if (rounds.count < least_rounds)
+        if (rounds.count < min_rounds)
             continue;
         const double enough = std::max(
             manner.well_known * (rounds.mean() - other.square),
@@ -127,16 +127,16 @@ SquaredError ErrorAtPoints::find(const OtherError& other, const Manner& manner,
         uncertainty = std::max(rounds.uncertainty(), by_noise);
         if (uncertainty <= enough)
             break;
-        const auto rays = double(gather_.rays()), most_rays = double(options.most_rays);
+        const auto rays = double(gather_.rays()), max_rays = double(options.max_rays);
         const double growth =
-            std::clamp(std::min(by_noise / enough, most_rays / rays), least_growth, most_growth);
-        if (growth_pays * enough < by_noise && length < longest && growth * rays <= most_rays) {
+            std::clamp(std::min(by_noise / enough, max_rays / rays), min_growth, max_growth);
+        if (growth_pays * enough < by_noise && length < longest && growth * rays <= max_rays) {
             length = std::min(std::round(growth * length), longest);
             gather_.set_rounds(static_cast<unsigned>(length));
-            points = std::max(manner.least_points,
+            points = std::max(manner.min_points,
                               manner.points_per_round / static_cast<std::size_t>(length));
             rounds = noise = {};
-        } else if (rays >= most_rays) {
+        } else if (rays >= max_rays) {
             break;
         }
     }

@@ -9,7 +9,7 @@ namespace {
 
 /// The largest number of texels that an edge may cross; beyond that it matters little where its
 /// polygon ends.
-constexpr double most_crossings = 16384;
+constexpr double max_crossings = 16384;
 
 /// Returns the remainder that is at least 0.
 std::int64_t modulo(std::int64_t i, std::int64_t n) { return (i % n + n) % n; }
@@ -191,7 +191,7 @@ Vec3 Texture::mean_over(std::span<const Vec2> polygon, Wraps wraps) const {
             crossed[axis] = std::min(high[axis], size[axis]) - std::max(low[axis], 0.0);
     const double farthest = std::max(glm::length(low), glm::length(high));
     constexpr double precise = 1e12; // texels
-    if (!(std::max(crossed.x, crossed.y) <= most_crossings) || !(farthest <= precise))
+    if (!(std::max(crossed.x, crossed.y) <= max_crossings) || !(farthest <= precise))
         return mean_;
     double area = 0;
     Vec3 integral(0.0);

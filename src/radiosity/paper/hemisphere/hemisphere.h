@@ -20,7 +20,7 @@ class Hemisphere {
     /// One triangle of the subdivision.
     struct Cell {
         std::array<std::uint16_t, 3> vertex;   ///< counter-clockwise seen from outside
-        std::array<std::uint16_t, 3> midpoint; ///< of edges 01, 12, 20; unused at the last level
+        std::array<std::uint16_t, 3> midpoint; ///< vertices halfway on edges 01, 12, 20
         std::uint16_t first_child; ///< the four children follow each other; 0 at the last level
         std::uint8_t level;
         double solid_angle;           ///< [sr]

@@ -24,9 +24,9 @@
 namespace hemilux::plain {
 
 /// Makes the full matrix, section 2. It keeps all pairs of patches, 40 bytes each. Throws
-/// std::invalid_argument if there are more than `most_patches_of_matrix` patches.
+/// std::invalid_argument if there are more than `max_patches_of_matrix` patches.
 [[nodiscard]] std::unique_ptr<Solver> matrix(const SolverInput& input);
-inline constexpr std::size_t most_patches_of_matrix = 2000;
+inline constexpr std::size_t max_patches_of_matrix = 2000;
 /// Makes progressive radiosity, section 3.1. A step is one shot.
 [[nodiscard]] std::unique_ptr<Solver> progressive(const SolverInput& input);
 /// Makes Monte Carlo radiosity, section 3.2.

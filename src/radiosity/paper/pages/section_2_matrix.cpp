@@ -30,7 +30,7 @@
 namespace hemilux::plain {
 namespace {
 
-constexpr int most_sweeps = 100'000;
+constexpr int max_sweeps = 100'000;
 
 /// The form factors F that so many rays from each patch have found.
 struct FormFactors {
@@ -52,7 +52,7 @@ class Matrix final : public Solver {
   public:
     explicit Matrix(const SolverInput& input)
         : input_(input), patches_(input.mesh.patches()), solution_(solution_before_steps(input)) {
-        if (patches_.size() > most_patches_of_matrix)
+        if (patches_.size() > max_patches_of_matrix)
             throw std::invalid_argument("too many patches to keep all pairs of them");
         factors_.assign(batches + 1, FormFactors(patches_.size()));
     }
@@ -105,7 +105,7 @@ class Matrix final : public Solver {
         std::vector<Vec3> B(patches_.size(), Vec3(0.0));
         double change = 1, all = 0;
         for (int sweep = 0; change > 1e-12 * all && !input_.monitor.interrupted; ++sweep) {
-            if (sweep == most_sweeps)
+            if (sweep == max_sweeps)
                 throw SolveError("these rays have not seen where light leaves the scene or is "
                                  "absorbed; a larger --rays looks for it with more",
                                  0);
@@ -139,7 +139,7 @@ class Matrix final : public Solver {
 
     SolverInput input_;
     std::span<const Patch> patches_;
-    std::vector<FormFactors> factors_; ///< of each batch, then of all
+    std::vector<FormFactors> factors_; ///< those of each batch, then of all
     Solution solution_;
 };
 

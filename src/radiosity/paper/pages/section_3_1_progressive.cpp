@@ -136,7 +136,7 @@ class Progressive final : public Solver {
     SolverInput input_;
     std::span<const Patch> patches_;
     Solution solution_;                            ///< shown after the last shot
-    std::array<std::vector<Vec3>, batches + 1> B_; ///< by batch and patch; then the mean
+    std::array<std::vector<Vec3>, batches + 1> B_; ///< radiosity by batch and patch; then the mean
     std::array<std::vector<Vec3>, batches> dB_;    ///< the part of it that is unshot
     CompensatedSum<Vec3> absorbed_, escaped_;      ///< power, in the mean of the batches
 };

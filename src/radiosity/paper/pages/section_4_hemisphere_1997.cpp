@@ -136,7 +136,7 @@ class Hemisphere1997 final : public StepSolver {
     Subdivision1997Options own_;
     Hemisphere tree_;
     int divided_ = -1;                      ///< the last level that is stored
-    std::vector<StoredSubdivision> stored_; ///< by patch and part
+    std::vector<StoredSubdivision> stored_; ///< hemispheres, by patch and part
 };
 
 } // namespace

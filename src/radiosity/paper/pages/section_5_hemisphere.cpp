@@ -60,7 +60,7 @@ class NewHemisphereRadiosity final : public StepSolver {
         const Cell* tr;
         double D_tr;
     };
-    using Triangles = std::vector<Triangle>; ///< of a patch's hemisphere
+    using Triangles = std::vector<Triangle>; ///< all of a patch's hemisphere
 
     /// Procedure Preprocessing (Scene), for one patch.
     void preprocessing(std::uint32_t patch) {
@@ -129,7 +129,7 @@ class NewHemisphereRadiosity final : public StepSolver {
     }
 
     Hemisphere hemisphere_;
-    std::vector<Triangles> triangles_; ///< by patch
+    std::vector<Triangles> triangles_; ///< those of each patch
 };
 
 } // namespace

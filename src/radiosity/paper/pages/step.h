@@ -19,8 +19,8 @@ namespace hemilux::plain {
 /// right on average (docs/paper/decisions.md, D4, D10).
 struct Due {
     std::uint32_t patch;
-    std::uint64_t key; ///< of the patch's random numbers in this bounce
-    double begin, end; ///< on the line [rays]
+    std::uint64_t key; ///< key of its random numbers in this bounce
+    double begin, end; ///< places on the line [rays]
     [[nodiscard]] double rays() const { return end - begin; }
 };
 
@@ -60,8 +60,8 @@ struct Step : StepResult {
     [[nodiscard]] double power_unshot() const;
 
     SolverInput input;
-    std::vector<Vec3> unshot;                   ///< by patch: Phi_patch
-    std::vector<CompensatedSum<Vec3>> received; ///< by patch: power
+    std::vector<Vec3> unshot;                   ///< Phi_patch, by patch
+    std::vector<CompensatedSum<Vec3>> received; ///< power, by patch
 };
 
 /// Shoots a patch's power by the cosine law, as the page of section 3.3 shows.

@@ -58,7 +58,7 @@ class StoredSubdivision {
         std::array<float, 3> to;
         std::uint8_t ns;
     };
-    std::vector<Stored> stored_; ///< by vertex of the tree
+    std::vector<Stored> stored_; ///< directions, by vertex of the tree
 };
 
 /// Returns the corners of a triangle that were counted with its own level: a child at a corner of

@@ -17,7 +17,7 @@ namespace hemilux {
 template <class Visit>
 void for_alike_neighbours(const Mesh& mesh, std::uint32_t i, const Visit& visit) {
     constexpr std::uint32_t reach = 6;
-    constexpr double most_turned = .9, most_area = 2; ///< cosine of the angle; ratio
+    constexpr double max_turned = .9, max_area = 2; ///< cosine of the angle; ratio
     const auto patches = mesh.patches();
     const Patch& at = patches[i];
     const std::uint32_t begin = i > reach ? i - reach : 0;
@@ -26,8 +26,8 @@ void for_alike_neighbours(const Mesh& mesh, std::uint32_t i, const Visit& visit)
     for (std::uint32_t j = begin; j < end; ++j) {
         const Patch& other = patches[j];
         if (j != i && other.material == at.material &&
-            glm::dot(other.normal, at.normal) > most_turned &&
-            std::max(other.area, at.area) <= most_area * std::min(other.area, at.area))
+            glm::dot(other.normal, at.normal) > max_turned &&
+            std::max(other.area, at.area) <= max_area * std::min(other.area, at.area))
             visit(j);
     }
 }

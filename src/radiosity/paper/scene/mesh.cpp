@@ -194,7 +194,7 @@ struct Mesh::Refinement {
     std::vector<Division> divisions;
     CellTree cells;
     std::span<const std::uint8_t> levels;
-    std::vector<std::uint32_t> parents; ///< of the patches there are now
+    std::vector<std::uint32_t> parents; ///< parents of the patches there are now
 
     [[nodiscard]] int levels_of(std::uint32_t front, bool two_sided) const {
         return std::max(levels[front], two_sided ? levels[front + 1] : levels[front]);

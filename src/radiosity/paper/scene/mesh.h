@@ -69,7 +69,7 @@ struct LocalFacets {
 
     LocalFrame frame;
     std::vector<Vec3> vertices;                 ///< those of the scene, and others behind them
-    std::vector<FacetCorners> corners;          ///< by facet: indices into `vertices`
+    std::vector<FacetCorners> corners;          ///< indices into `vertices`, by facet
     std::vector<FacetCorners> corners_to_trace; ///< the same for a tracer; empty: as `corners`
     bool all_layers_are_offset = true;
 
@@ -172,7 +172,7 @@ class Mesh {
     std::vector<Division> divisions_;
     CellTree cells_;
     std::vector<std::uint32_t>
-        only_patch_; ///< of a facet, none if divided: all that most hits need
+        only_patch_; ///< patch of a facet, none if divided: all that most hits need
     bool two_sided_ = false;
     unsigned threads_ = 0;
 };

@@ -30,7 +30,7 @@ struct Needs {
         return idle.empty() || !idle[patch];
     }
 
-    std::vector<bool> idle;           ///< by patch; empty where none is
+    std::vector<bool> idle;           ///< idle patches; empty where none is
     std::size_t black = 0, unlit = 0; ///< idle because it reflects nothing; because no light comes
 };
 

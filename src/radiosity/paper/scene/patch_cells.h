@@ -42,7 +42,7 @@ enum class CellCut : std::uint8_t { leaf, four, across_x, across_y };
 class CellTree {
   public:
     struct Cell {
-        std::uint32_t first = 0; ///< of its pieces; of a leaf, the patch
+        std::uint32_t first = 0; ///< the first of its pieces; of a leaf, the patch
         CellCut cut = CellCut::leaf;
     };
     /// Adds `count` consecutive cells and returns the index of the first.

@@ -17,7 +17,7 @@ struct Material {
     std::string name;
     Vec3 reflectance{0.5}; ///< rho [-], each channel in [0,1]; 1 only where light gets out
     Vec3 emission{0.0};    ///< E [W/m2 leaving]
-    bool is_far = false;   ///< of a sun or a sky, around which the scene is not to be measured
+    bool is_far = false;   ///< a sun or a sky, left out of the size of the scene
 };
 
 /// A triangle or a planar convex quad of the scene: a file's face or a part of one.

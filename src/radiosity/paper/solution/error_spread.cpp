@@ -24,7 +24,7 @@ double quantile_of_f(double above, double below) {
 }
 
 /// The largest number of degrees of freedom that a few batches can tell from any larger one.
-constexpr double most_freedom = 16;
+constexpr double max_freedom = 16;
 
 double freedom_by_patch(const Mesh& mesh, const Solution& solution) {
     const auto variance = [&](std::size_t i) {
@@ -47,7 +47,7 @@ double ErrorSpread::bound() const {
 
 double ErrorSpread::reported() const {
     constexpr double tolerance = 1.5;
-    const ErrorSpread careful{1 / (1 / freedom + 1 / most_freedom), batch_freedom};
+    const ErrorSpread careful{1 / (1 / freedom + 1 / max_freedom), batch_freedom};
     return std::max(1.0, careful.bound() / tolerance);
 }
 

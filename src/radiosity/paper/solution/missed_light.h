@@ -19,8 +19,8 @@ struct LightFoundByRays {
     std::span<const double> area;      ///< local units
     std::span<const Vec3> reflectance; ///< [-]
     std::span<const Vec3> incident;    ///< arrives [W/m2]
-    std::span<const Vec3> leaving;     ///< that rays are to find [W/m2]
-    std::span<const double> rays;      ///< of the patch
+    std::span<const Vec3> leaving;     ///< light that rays are to find [W/m2]
+    std::span<const double> rays;      ///< number of rays of the patch
 };
 
 /// Returns the mean of `leaving`, weighted by itself: the radiosity of the patches that most light

@@ -17,7 +17,7 @@ class Mesh;
 /// The balance of the light of a solution, per channel [W]: emitted = absorbed + escaped + unshot.
 struct EnergyBalance {
     Vec3 emitted{0.0};
-    Vec3 absorbed{0.0}; ///< by patches and by backs of one-sided faces
+    Vec3 absorbed{0.0}; ///< power that patches and backs take
     Vec3 escaped{0.0};
     /// Power that leaves patches and was not carried by rays: it is still to be shot, or differs by
     /// chance. It may be negative; chance adds 0 on average.
@@ -39,7 +39,7 @@ struct Solution {
     /// The linear change of the light of each patch, whose mean is B. It is empty if the light is B
     /// everywhere on a patch.
     std::vector<Slope> slope = {};
-    std::vector<Vec3> standard_error; ///< of B [W/m2]; NaN before two steps
+    std::vector<Vec3> standard_error; ///< that of B [W/m2]; NaN before two steps
     std::vector<std::uint64_t> hits;  ///< energy rays that hit each patch
     /// The weight of the squared error and of the light of each patch in the error of the whole
     /// (target.h). It is empty where all are 1.
@@ -76,8 +76,8 @@ struct Solution {
     std::uint32_t steps = 0;
     std::uint64_t rays_energy = 0;
     std::uint64_t rays_density = 0;
-    std::uint64_t rays_density_spared = 0; ///< below triangles that were not divided
-    std::uint64_t bytes_density = 0;       ///< of the density store; 0 where a method keeps none
+    std::uint64_t rays_density_spared = 0; ///< rays below undivided triangles
+    std::uint64_t bytes_density = 0;       ///< size of the density store; 0: there is none
     double seconds_density = 0;            ///< spent before the first step
     MethodFigures figures = {};            ///< what only its method finds
 };
@@ -110,7 +110,7 @@ struct RelativeError {
 struct ZScores {
     double mean = 0;
     double rms = 0;
-    double largest = 0; ///< in magnitude
+    double largest = 0; ///< largest magnitude
     std::size_t count = 0;
 };
 [[nodiscard]] ZScores z_scores(const Mesh& mesh, const Solution& solution,

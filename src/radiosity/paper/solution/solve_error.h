@@ -19,14 +19,14 @@ class Mesh;
 struct SolveError : std::runtime_error {
     SolveError(const std::string& message, std::uint32_t first_face)
         : std::runtime_error(message), face(first_face) {}
-    std::uint32_t face; ///< of the file, from 0: one of those it is about
+    std::uint32_t face; ///< a face of the file it is about, from 0
 };
 
 /// Larger radiosities are refused, so that sums of their squares remain finite [W/m2].
 inline constexpr double largest_radiosity = 1e145;
 /// Emission of a channel that is everywhere less than this, and not 0, is refused too: squares
 /// would vanish [W/m2].
-inline constexpr double least_radiosity = 1e-145;
+inline constexpr double min_radiosity = 1e-145;
 
 /// Returns the face of the file that a patch is part of, counted from 0.
 [[nodiscard]] std::uint32_t face_of(const Mesh& mesh, std::uint32_t patch);

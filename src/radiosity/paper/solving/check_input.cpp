@@ -39,7 +39,7 @@ void check_faint_channels(const Mesh& mesh) {
         for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
             if (emission(i) > emission(brightest))
                 brightest = i;
-        if (emission(brightest) > 0 && emission(brightest) < least_radiosity)
+        if (emission(brightest) > 0 && emission(brightest) < min_radiosity)
             throw SolveError("the emission of " + name_of_patch(mesh, brightest) +
                                  ", the largest of its channel, is too small to go on with; scale "
                                  "emissions up or make it 0",

@@ -18,7 +18,7 @@ struct SolverInput;
 struct LosslessComponent {
     int channel;
     std::vector<std::uint32_t> patches; ///< those that an emitter lights, in ascending order
-    std::uint64_t rays;                 ///< of which none got out
+    std::uint64_t rays;                 ///< number of rays, none of which got out
 };
 
 /// Finds such a component that holds an emitter; empty if there is none, or when interrupted. There

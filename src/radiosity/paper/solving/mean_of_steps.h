@@ -21,8 +21,8 @@ struct StepResult {
     /// Begins a step: nothing has been shot, and the radiosity is the emission.
     explicit StepResult(const Mesh& mesh);
 
-    std::vector<Vec3> radiosity;                  ///< by patch [W/m2]
-    std::vector<std::uint32_t> hits;              ///< by patch: rays that hit it
+    std::vector<Vec3> radiosity;                  ///< radiosity by patch [W/m2]
+    std::vector<std::uint32_t> hits;              ///< rays that hit each patch
     CompensatedSum<Vec3> absorbed, escaped, sent; ///< power; `sent` is that of all rays
     double shot = 0; ///< all power that was to be shot, mean of channels
     std::uint64_t rays = 0;
@@ -30,7 +30,7 @@ struct StepResult {
 
 /// The sums over the steps so far, besides their mean. Powers are in local units.
 struct StepSums {
-    std::vector<Vec3> squares; ///< by patch: sum of squared deviations of the radiosity
+    std::vector<Vec3> squares; ///< sum of squared deviations of the radiosity, by patch
     /// The brightness of all light of a step beside the mean of the steps [-]: its mean, and the
     /// sum of its squared deviations.
     double level = 0, level_squares = 0;

@@ -30,7 +30,7 @@ struct SolveOptions {
     unsigned threads = 0;
     /// The method leaves out nothing that the scene does not need (needs.h), for comparison.
     bool keep_all = false;
-    OwnOptions own = {}; ///< of single methods, as own.of<ProgressiveOptions>()
+    OwnOptions own = {}; ///< those of single methods: own.of<ProgressiveOptions>()
 };
 
 } // namespace hemilux

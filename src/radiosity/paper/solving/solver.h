@@ -30,7 +30,7 @@ struct SolverInput {
     const Tracer& tracer;
     const SolveOptions& options;
     Monitor& monitor;
-    const Needs& needs = everything_needed; ///< of this mesh: what is not needed may be left out
+    const Needs& needs = everything_needed; ///< needs of this mesh: the rest may be left out
     /// The weight of each patch, Solution::weight, for methods that take one (Method::aims). It is
     /// empty where all are 1.
     std::span<const double> target = {};

@@ -8,8 +8,8 @@ namespace hemilux {
 class StopFlag {
   public:
     struct Reasons {
-        std::atomic<bool> wished{false};      ///< by the caller, or by a signal handler of his
-        std::atomic<bool> out_of_time{false}; ///< as a time limit is over
+        std::atomic<bool> wished{false};      ///< wish of the caller, or of its signal handler
+        std::atomic<bool> out_of_time{false}; ///< end of a time limit
     };
     /// The reasons on which several processes have agreed, so that all stop at the same place
     /// (engine/solving/shared_stop.h).

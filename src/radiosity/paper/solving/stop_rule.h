@@ -10,7 +10,7 @@ namespace hemilux {
 /// The first rule that is met ends the run. With none given, `default_steps` does.
 struct StopRule {
     std::optional<std::uint32_t> steps = {};
-    std::optional<double> seconds = {}; ///< of the run [s]
+    std::optional<double> seconds = {}; ///< time of the run [s]
     std::optional<double> error = {};   ///< estimated relative error [-], e.g. 0.01
     /// The number of rays in all after which no further step is begun: where light is rare an error
     /// may be out of reach.

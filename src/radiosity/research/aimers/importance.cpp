@@ -48,7 +48,7 @@ class ByImportance final : public Aimer {
 /// Over all power, patches must get about as many rays as by power alone.
 void ByImportance::load(StateReader& state, MeanOfSteps& mean) {
     constexpr Bounds times{1e-6, 1e6};
-    constexpr double most_rays = 1e3; // for those that power alone would give
+    constexpr double max_rays = 1e3; // for those that power alone would give
     if (state.whole() != hash_of_weights(input_.target))
         throw StateError("what the run was for is not what it is for this time");
     const bool is_aimed = mean.ray_power > 0 && mean.ray_power <= bounds::largest;
@@ -65,7 +65,7 @@ void ByImportance::load(StateReader& state, MeanOfSteps& mean) {
         for (std::size_t k = 0; k < balls.count(); ++k)
             rays += of_patch * balls.times(i, k);
     }
-    if (!(rays <= most_rays * power))
+    if (!(rays <= max_rays * power))
         throw StateError("its patches would trace far more rays than are asked for");
 }
 

@@ -17,9 +17,9 @@ Pyramid::Place Pyramid::place_of(const Box& box) const {
     Place place = Place::inside;
     for (const Vec3& n : normal) {
         const double middle = glm::dot(n, centre), reach = glm::dot(glm::abs(n), half);
-        if (middle + reach <= least_distance)
+        if (middle + reach <= min_distance)
             return Place::outside;
-        if (middle - reach <= least_distance)
+        if (middle - reach <= min_distance)
             place = Place::across;
     }
     return place;
@@ -28,13 +28,13 @@ Pyramid::Place Pyramid::place_of(const Box& box) const {
 /// Clips the polygon by one plane after the other (Sutherland and Hodgman 1974); the mean of the
 /// corners that are left lies inside, as all is convex.
 std::optional<Vec3> Pyramid::point_of(const Polygon& polygon) const {
-    constexpr std::size_t most_corners = 4 + 3;
-    std::array<Vec3, most_corners> corner, kept;
+    constexpr std::size_t max_corners = 4 + 3;
+    std::array<Vec3, max_corners> corner, kept;
     std::size_t corners = polygon.corner.size();
     std::ranges::copy(polygon.corner, corner.begin());
     for (const Vec3& n : normal) {
         std::size_t left = 0;
-        const auto height = [&](const Vec3& p) { return glm::dot(n, p - apex) - least_distance; };
+        const auto height = [&](const Vec3& p) { return glm::dot(n, p - apex) - min_distance; };
         for (std::size_t k = 0; k < corners; ++k) {
             const Vec3 &a = corner[k], &b = corner[(k + 1) % corners];
             const double of_a = height(a), of_b = height(b);

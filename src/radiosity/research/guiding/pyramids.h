@@ -27,11 +27,11 @@ class Mesh;
 class Workers;
 struct Monitor;
 
-/// All points p with dot(normal, p - apex) > least_distance for each of three unit normals.
+/// All points p with dot(normal, p - apex) > min_distance for each of three unit normals.
 struct Pyramid {
     /// Neighbours in the plane of the apex's patch, and others that only touch the pyramid, are not
     /// in it [local units: the scene lies within [-1,1]^3].
-    static constexpr double least_distance = 1e-9;
+    static constexpr double min_distance = 1e-9;
 
     Vec3 apex; ///< local units
     std::array<Vec3, 3> normal;

@@ -11,7 +11,7 @@ namespace hemilux {
 namespace {
 
 /// The largest density: it stays within what floats hold, whatever the areas.
-constexpr double most_density = 1e12;
+constexpr double max_density = 1e12;
 
 } // namespace
 
@@ -31,7 +31,7 @@ void RayDensities::set_mean(double mean_root) {
     mean_root_ = mean_root;
     for (std::size_t byte = 0; byte < log_byte::values; ++byte) {
         const double guided = mean_root > 0 ? log_byte::value(byte) / mean_root : 1;
-        density_[byte] = lowest_density + (1 - lowest_density) * std::min(guided, most_density);
+        density_[byte] = lowest_density + (1 - lowest_density) * std::min(guided, max_density);
     }
 }
 

@@ -33,7 +33,7 @@ constexpr std::uint64_t steps_of_learning = 8, later_training = 4;
 constexpr double unknown_share = .05;
 
 /// The largest values that are kept: they stay within what floats hold, whatever the areas.
-constexpr double most_value = 1e12, most_rays_per_area = 1e18;
+constexpr double max_value = 1e12, max_rays_per_area = 1e18;
 
 /// Returns true for the first four steps, then each time that the number of steps has grown by a
 /// third or a half: 6, 8, 12, 16 ...
@@ -66,7 +66,7 @@ class VisibilityGuide final : public Strategy, StepHook {
         const double unknown = unknown_share * mean_radiosity(radiosity) / (step * step);
         for (std::size_t i = 0; i < sides_.size(); ++i)
             sides_[i].rays_per_area = static_cast<float>(std::min(
-                (mean_of_channels(radiosity[i]) + unknown) / ray_power, most_rays_per_area));
+                (mean_of_channels(radiosity[i]) + unknown) / ray_power, max_rays_per_area));
     }
 
     void begin_step(std::uint64_t) override {
@@ -199,8 +199,8 @@ void VisibilityGuide::describe_sides() {
         const bool sends = needs_.power(i) && own_area > 0;
         const double value = own_area > 0 ? mean_of_channels(rho * rho) * mean_area / own_area : 0;
         const double rays = sends ? static_cast<double>(rays_of_look()) / own_area : 0;
-        sides_.push_back({static_cast<float>(std::min(value, most_value)),
-                          static_cast<float>(std::min(rays, most_rays_per_area))});
+        sides_.push_back({static_cast<float>(std::min(value, max_value)),
+                          static_cast<float>(std::min(rays, max_rays_per_area))});
         frames_.push_back(mesh_.hemisphere_frame(i));
     }
 }

@@ -23,12 +23,12 @@ using Node = PatchTree::Node;
 
 /// The most links that are made, however much light they carry: with its factors in eight batches a
 /// link takes some 100 bytes.
-constexpr std::size_t most_links = 4'000'000;
+constexpr std::size_t max_links = 4'000'000;
 
 /// The largest factor of a link. A larger one changes too much within a node, whatever the light.
 /// Where surfaces nearly touch, one patch sees another alone, and the mean over its node hardly
 /// sees it.
-constexpr double most_factor = .1;
+constexpr double max_factor = .1;
 
 /// An area that exceeds another by less than this factor counts as equal.
 constexpr double rounding = 1 + 1e-6;
@@ -57,12 +57,12 @@ Links::Links(const Mesh& mesh, const PatchTree& tree) : mesh_(mesh), tree_(tree)
     for (const std::uint32_t to : tree.roots())
         for (const std::uint32_t from : tree.roots())
             if (const Link link{to, from}; to != from && may_see(link)) {
-                if (links_.size() == most_links)
+                if (links_.size() == max_links)
                     throw SolveError(
                         "the faces lie in " + std::to_string(tree.roots().size()) +
                             " planes, each of which is linked with all that it may see: more "
                             "than " +
-                            std::to_string(most_links) +
+                            std::to_string(max_links) +
                             " links; --method stored-transport needs none",
                         0);
                 links_.push_back(link);
@@ -76,8 +76,8 @@ bool Links::may_see(const Link& link) const {
     if (to.is_patch() && from.is_patch())
         return hemilux::may_see(mesh_.patches()[tree_.patch(to)],
                                 mesh_.patches()[tree_.patch(from)]);
-    constexpr double least_height = 1e-12; // no more than patches need
-    return height_over(to, from) > least_height && height_over(from, to) > least_height;
+    constexpr double min_height = 1e-12; // no more than patches need
+    return height_over(to, from) > min_height && height_over(from, to) > min_height;
 }
 
 bool Links::are_whole() const {
@@ -87,7 +87,7 @@ bool Links::are_whole() const {
 }
 
 Refinement Links::refine(std::span<const double> light, std::span<const double> reflectance,
-                         double most_power) {
+                         double max_power) {
     std::vector<double> brightness(tree_.nodes().size()), rho(tree_.nodes().size());
     tree_.pull(light, brightness);
     tree_.pull(reflectance, rho);
@@ -105,12 +105,12 @@ Refinement Links::refine(std::span<const double> light, std::span<const double> 
                 rough_factor(to, from) * brightness[link.from] * to.area * rho[link.to];
             const bool whole = to.is_patch() && from.is_patch();
             const double factor = std::max(rough_factor(to, from), rough_factor(from, to));
-            const bool is_fine = power <= most_power && factor <= most_factor;
+            const bool is_fine = power <= max_power && factor <= max_factor;
             if (whole || is_fine) {
                 fine.push_back(link);
                 continue;
             }
-            if (fine.size() + open.size() > most_links)
+            if (fine.size() + open.size() > max_links)
                 return Refinement::too_many_links;
             divided = true;
             if (from.is_patch() || (!to.is_patch() && to.area > rounding * from.area)) {

@@ -31,12 +31,12 @@ class Links {
     /// SolveError if there are too many.
     Links(const Mesh& mesh, const PatchTree& tree);
 
-    /// Divides the links by which more than `most_power` may be reflected, the larger node of each:
+    /// Divides the links by which more than `max_power` may be reflected, the larger node of each:
     /// the oracle BF with areas. `light` [W/m2 leaving] and `reflectance` [-] are by patch, means
-    /// of channels; `most_power` is in W/m2 times local area. No link is divided if there would be
+    /// of channels; `max_power` is in W/m2 times local area. No link is divided if there would be
     /// too many.
     Refinement refine(std::span<const double> light, std::span<const double> reflectance,
-                      double most_power);
+                      double max_power);
 
     [[nodiscard]] std::span<const Link> all() const { return links_; }
     /// Returns whether all are between patches, so that nodes stand for nothing.

@@ -50,14 +50,14 @@ constexpr std::size_t batches = 8;
 /// it.
 constexpr double first_tolerance = 1e-3, finer_tolerance = 1.0 / 16;
 /// The rays per patch at which the run ends whatever the error.
-constexpr double most_rays = 1u << 20;
+constexpr double max_rays = 1u << 20;
 /// The most points of a link in one batch.
-constexpr std::uint32_t most_points = 8192;
+constexpr std::uint32_t max_points = 8192;
 /// These estimate the memory: a link with its factors in all batches takes so many bytes, and a
 /// patch has about so many links.
 constexpr double bytes_per_link = 100, links_per_patch = 150;
 /// Black patches count as if they had this reflectance: they account for what they absorb.
-constexpr double least_reflectance = .1;
+constexpr double min_reflectance = .1;
 
 class HierarchicalSolver final : public Solver {
   public:
@@ -66,9 +66,9 @@ class HierarchicalSolver final : public Solver {
           batches_(input, batches, solution_), tree_(input.mesh), links_(input.mesh, tree_),
           lost_rays_(input.mesh, input.tracer, input.options.seed, batches), surfaces_(input.mesh),
           changes_(input.mesh.patches().size()),
-          rays_(std::clamp(input.options.rays, 1.0, most_rays)) {
+          rays_(std::clamp(input.options.rays, 1.0, max_rays)) {
         for (const Vec3& reflectance : surfaces_.reflectance)
-            mean_reflectance_.push_back(std::max(mean_of_channels(reflectance), least_reflectance));
+            mean_reflectance_.push_back(std::max(mean_of_channels(reflectance), min_reflectance));
         solution_.error_batches = batches;
         emitted_ = mean_of_channels(emitted_power(input.mesh));
     }
@@ -83,12 +83,12 @@ class HierarchicalSolver final : public Solver {
             if (done)
                 return *done;
             rays_ *= 2;
-            search.go_on(traced_, rays_ < most_rays);
+            search.go_on(traced_, rays_ < max_rays);
         }
     }
 
     [[nodiscard]] bool finished() const override {
-        return rays_ > most_rays || (solution_.steps > 0 && !input_.needs.bounces);
+        return rays_ > max_rays || (solution_.steps > 0 && !input_.needs.bounces);
     }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
@@ -175,7 +175,7 @@ class HierarchicalSolver final : public Solver {
         for (const double of_link : weight) {
             const double wanted = sum > 0 ? std::ceil(all * of_link / sum) : 1;
             points.push_back(
-                static_cast<std::uint32_t>(std::clamp(wanted, 1.0, double(most_points))));
+                static_cast<std::uint32_t>(std::clamp(wanted, 1.0, double(max_points))));
         }
         return points;
     }

@@ -29,7 +29,7 @@ constexpr double root_of_unaimed = .25;
 
 /// A ball gets rays of its own if they are more than this many times those that would pass through
 /// it anyway.
-constexpr double least_times_of_ball = 3;
+constexpr double min_times_of_ball = 3;
 
 /// The importance that rays from a patch have found, and their number.
 struct Found {
@@ -189,7 +189,7 @@ void aim_at_balls(const SolverInput& input, const Workers& workers, std::span<co
     for (std::size_t k = 0; k < count; ++k) {
         const double anyway =
             mean([&](std::uint32_t i) { return visibility.power[i * count + k]; });
-        if (!(due[k] > least_times_of_ball * anyway * all))
+        if (!(due[k] > min_times_of_ball * anyway * all))
             due[k] = 0;
         kept += due[k];
     }

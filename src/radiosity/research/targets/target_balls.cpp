@@ -15,7 +15,7 @@
 namespace hemilux {
 namespace {
 
-constexpr std::size_t most_balls = 8;
+constexpr std::size_t max_balls = 8;
 
 /// The share of the target that goes into balls. For all of a picture they would have to be large,
 /// as a few patches of the table count too (target_balls.h).
@@ -23,7 +23,7 @@ constexpr double share_in_balls = .75;
 
 /// A ball is halved if this makes the sum over balls of sqrt(mass) times radius smaller by more
 /// than this share. The best numbers of rays are proportional to that.
-constexpr double least_gain = .1;
+constexpr double min_gain = .1;
 
 constexpr std::uint64_t looks = 8;
 
@@ -100,8 +100,8 @@ class Clusters {
 } // namespace
 
 bool TargetBall::is_near(const Vec3& to_centre) const {
-    constexpr double least_radii = 1.1;
-    return !(glm::length(to_centre) > least_radii * radius);
+    constexpr double min_radii = 1.1;
+    return !(glm::length(to_centre) > min_radii * radius);
 }
 
 bool TargetBall::takes(const Vec3& origin, const Vec3& direction) const {
@@ -134,7 +134,7 @@ std::vector<TargetBall> find_balls(const Mesh& mesh, std::span<const double> val
     if (patches.empty())
         return {};
     std::vector<Cluster> found{clusters.around(std::move(patches))};
-    while (found.size() < most_balls) {
+    while (found.size() < max_balls) {
         double cost = 0, gain = 0;
         std::size_t best = 0;
         std::pair<Cluster, Cluster> halves;
@@ -149,7 +149,7 @@ std::vector<TargetBall> find_balls(const Mesh& mesh, std::span<const double> val
                 halves = std::move(two);
             }
         }
-        if (!(gain > least_gain * cost))
+        if (!(gain > min_gain * cost))
             break;
         found[best] = std::move(halves.first);
         found.push_back(std::move(halves.second));

@@ -68,7 +68,7 @@ Vec3 power_of(const Model& model, std::span<const Vec3> light) {
 }
 
 /// Of the centre and the corners of one over the plane of the other.
-double least_height(const Patch& of, const Patch& over) {
+double min_height(const Patch& of, const Patch& over) {
     double least = glm::dot(over.normal, of.centre - over.centre);
     for (const Vec3& corner : of.shape.corner)
         least = std::min(least, glm::dot(over.normal, corner - over.centre));
@@ -114,7 +114,7 @@ TEST_CASE("Shadow rays go to every emitter that may be seen, by what it may brin
             const Patch &to = patches[i], &from = patches[e];
             const double r = glm::distance(to.centre, from.centre), pi = std::numbers::pi;
             const double nearest =
-                std::max({r - radius_of(to), least_height(from, to), least_height(to, from), 0.0});
+                std::max({r - radius_of(to), min_height(from, to), min_height(to, from), 0.0});
             if (e != i && may_see(to, from))
                 expected[e] =
                     mean_of_channels(model.mesh.material(from).emission / most) *

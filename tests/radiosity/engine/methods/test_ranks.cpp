@@ -109,8 +109,8 @@ const StopRule many_steps{.seconds = 1e9};
 TEST_CASE("Methods that share their work find the same bytes on any number of ranks and threads",
           "[slow]") {
     const Model open(test::open_scene(), divided), room(test::room_with_block(), divided);
-    REQUIRE(room.mesh.patches().size() > 5 * OwnBlocks::least_block);
-    REQUIRE(open.mesh.patches().size() > 5 * OwnBlocks::least_block);
+    REQUIRE(room.mesh.patches().size() > 5 * OwnBlocks::min_block);
+    REQUIRE(open.mesh.patches().size() > 5 * OwnBlocks::min_block);
     for (const Model* model : {&open, &room})
         for (const Method* method : methods()) {
             if (!method->can_resume())
@@ -188,19 +188,19 @@ TEST_CASE("Ranks share the rays and the matrix evenly") {
     const Run asked{model, *find_method("stored-transport"), {.rays = 16, .threads = 1}};
     const RankWork all = solve_on(one_rank(), asked).work;
     const std::vector<Found> ranks = on_ranks(4, asked);
-    std::uint64_t rays = 0, entries = 0, most_rays = 0, most_entries = 0, sent = 0, received = 0;
+    std::uint64_t rays = 0, entries = 0, max_rays = 0, max_entries = 0, sent = 0, received = 0;
     for (const Found& of_rank : ranks) {
         rays += of_rank.work.rays;
         entries += of_rank.work.entries;
-        most_rays = std::max(most_rays, of_rank.work.rays);
-        most_entries = std::max(most_entries, of_rank.work.entries);
+        max_rays = std::max(max_rays, of_rank.work.rays);
+        max_entries = std::max(max_entries, of_rank.work.entries);
         sent += of_rank.work.sent;
         received += of_rank.work.received;
     }
     CHECK(rays == ranks[0].solution.rays_energy);
     CHECK(sent == received);
-    CHECK(4 * most_rays < 5 * rays / 4);
-    CHECK(4 * most_entries < 5 * entries / 4);
+    CHECK(4 * max_rays < 5 * rays / 4);
+    CHECK(4 * max_entries < 5 * entries / 4);
     CHECK(entries > 0);
     CHECK(all.sent == 0);
 }

@@ -76,19 +76,18 @@ TEST_CASE("every instruction set gives the same points") {
     Rng rng(5);
     SobolBlockStart start{};
     SobolSteps steps{};
-    for (std::size_t d = 0; d < most_dimensions; ++d) {
+    for (std::size_t d = 0; d < max_dimensions; ++d) {
         start.seeds[d] = static_cast<std::uint32_t>(rng.bits());
         start.first[d] = static_cast<std::uint32_t>(rng.bits());
         for (std::uint32_t& step : steps.step[d])
             step = static_cast<std::uint32_t>(rng.bits());
     }
-    using Points = std::array<double, samples_per_block * most_dimensions>;
+    using Points = std::array<double, samples_per_block * max_dimensions>;
     Points expected{};
-    sampling_kernels(InstructionSet::baseline)
-        .sobol(start, steps, most_dimensions, expected.data());
+    sampling_kernels(InstructionSet::baseline).sobol(start, steps, max_dimensions, expected.data());
     for (const InstructionSet set : available_instruction_sets()) {
         Points points{};
-        sampling_kernels(set).sobol(start, steps, most_dimensions, points.data());
+        sampling_kernels(set).sobol(start, steps, max_dimensions, points.data());
         CHECK(points == expected);
     }
 }

@@ -135,24 +135,24 @@ TEST_CASE("patches are divided until what errs most errs little, and no further"
     const std::vector<double> square{.01, 1e-4, -1e-3, 1e-6};
     const double sum = std::accumulate(square.begin(), square.end(), 0.0);
     using Levels = std::vector<std::uint8_t>;
-    CHECK(levels_of_division(square, {.goal = sum, .least_pieces = 0, .most_pieces = 1000}) ==
+    CHECK(levels_of_division(square, {.goal = sum, .min_pieces = 0, .max_pieces = 1000}) ==
           Levels{0, 0, 0, 0});
-    CHECK(levels_of_division(square, {.goal = .5 * sum, .least_pieces = 0, .most_pieces = 1000}) ==
+    CHECK(levels_of_division(square, {.goal = .5 * sum, .min_pieces = 0, .max_pieces = 1000}) ==
           Levels{1, 0, 0, 0});
     const Levels least =
-        levels_of_division(square, {.goal = sum, .least_pieces = 8, .most_pieces = 1000});
+        levels_of_division(square, {.goal = sum, .min_pieces = 8, .max_pieces = 1000});
     CHECK(least[0] > 0);
     CHECK(least[2] == 0);
-    CHECK(levels_of_division(square, {.goal = 0, .least_pieces = 0, .most_pieces = 7}) ==
+    CHECK(levels_of_division(square, {.goal = 0, .min_pieces = 0, .max_pieces = 7}) ==
           Levels{1, 0, 0, 0});
-    CHECK(levels_of_division({}, {.goal = 0, .least_pieces = 0, .most_pieces = 7}).empty());
+    CHECK(levels_of_division({}, {.goal = 0, .min_pieces = 0, .max_pieces = 7}).empty());
 }
 
 TEST_CASE("one patch that errs much is not a reason to divide all others") {
     std::vector<double> square(100, 1e-6);
     square[7] = 1;
     const auto levels =
-        levels_of_division(square, {.goal = .001, .least_pieces = 0, .most_pieces = 10'000});
+        levels_of_division(square, {.goal = .001, .min_pieces = 0, .max_pieces = 10'000});
     CHECK(levels[7] == 2);
     CHECK(std::ranges::count(levels, 0) == 99);
 }

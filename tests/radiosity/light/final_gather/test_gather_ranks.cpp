@@ -25,7 +25,7 @@ TEST_CASE("Ranks share the gathers that find how far light is off within patches
     const Solution solution =
         test::solve(model, *find_method("stored-transport"), {.rays = 64}, test::steps(1));
     const auto find = [&](const StopFlag& flag) {
-        return division_error(model.mesh, model.bvh, solution, {.most_rays = 200'000}, Workers(2),
+        return division_error(model.mesh, model.bvh, solution, {.max_rays = 200'000}, Workers(2),
                               flag);
     };
     const DivisionError alone = find(StopFlag());

@@ -45,7 +45,7 @@ TEST_CASE("Against the light itself a solution is off by its noise and by its di
     const Solution accurate = test::reference(model, .001);
     const StopFlag never;
     const double division = division_error(model.mesh, model.bvh, accurate,
-                                           {.seed = 3, .most_rays = 2'000'000}, Workers(2), never)
+                                           {.seed = 3, .max_rays = 2'000'000}, Workers(2), never)
                                 .error;
     const KnownLight light = light_of(model, accurate, 4);
     CHECK(light.error(accurate.radiosity) == Approx(division).epsilon(.1));

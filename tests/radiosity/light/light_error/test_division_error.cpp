@@ -73,10 +73,10 @@ double true_error_on_ground(const Mesh& mesh, const Solution& solution) {
 }
 
 DivisionError division_error_of(const Model& model, const Solution& solution, std::uint64_t seed,
-                                unsigned threads = 0, std::uint64_t most_rays = 1'000'000) {
+                                unsigned threads = 0, std::uint64_t max_rays = 1'000'000) {
     const StopFlag never;
     return division_error(model.mesh, model.bvh, solution,
-                          {.seed = seed, .most_rays = most_rays, .negligible = 0}, Workers(threads),
+                          {.seed = seed, .max_rays = max_rays, .negligible = 0}, Workers(threads),
                           never);
 }
 
@@ -84,8 +84,8 @@ DivisionError spread_error_of(const Model& model, const Solution& solution, std:
                               double negligible) {
     const StopFlag never;
     return spread_error(model.mesh, model.bvh, solution, true,
-                        {.seed = seed, .most_rays = 1'000'000, .negligible = negligible},
-                        Workers(0), never);
+                        {.seed = seed, .max_rays = 1'000'000, .negligible = negligible}, Workers(0),
+                        never);
 }
 
 Scene bright_room_with_block() {
@@ -196,7 +196,7 @@ TEST_CASE("an error of division is the same, and known better, by points where i
     for (const std::uint64_t seed : {1, 2, 3}) {
         const auto found = [&](std::span<const double> known) {
             return division_error(model.mesh, model.bvh, solution,
-                                  {.seed = seed, .most_rays = 0, .square = known}, Workers(0),
+                                  {.seed = seed, .max_rays = 0, .square = known}, Workers(0),
                                   never);
         };
         const DivisionError uniform = found({}), directed = found(square);

@@ -160,7 +160,7 @@ TEST_CASE("Each shot leaves less unshot, and the ambient term shows what it is")
 
 TEST_CASE("The full matrix refuses more patches than it keeps pairs of") {
     const PaperModel model(test::furnace_box(19, .5)); // 6 * 19 * 19 patches
-    REQUIRE(model.mesh.patches().size() > plain::most_patches_of_matrix);
+    REQUIRE(model.mesh.patches().size() > plain::max_patches_of_matrix);
     const SolveOptions options;
     Monitor monitor;
     CHECK_THROWS_AS(plain::matrix({model.mesh, model.bvh, options, monitor}),

@@ -80,12 +80,12 @@ TEST_CASE("A polygon is in a pyramid if one of its points is, and only then") {
         int points = 0;
         for (int k = 0; k < 100; ++k)
             points += depth_in(pyramid, polygon.sample({rng.uniform(), rng.uniform()})) >
-                      Pyramid::least_distance;
+                      Pyramid::min_distance;
         CHECK((points == 0 || found));
         if (!found)
             continue;
         ++inside, partly += points < 100;
-        CHECK(depth_in(pyramid, *found) > Pyramid::least_distance / 2);
+        CHECK(depth_in(pyramid, *found) > Pyramid::min_distance / 2);
         // It lies in the polygon's plane, and on the inner side of each edge.
         const Vec3 normal = polygon.normal();
         CHECK(std::abs(glm::dot(normal, *found - a)) < 1e-12);
@@ -112,7 +112,7 @@ TEST_CASE("A box is called outside or inside a pyramid only if all of it is") {
         inside += place == Pyramid::Place::inside;
         for (int k = 0; k < 20; ++k) {
             const Vec3 point = box.low + box.extent() * (random_point(rng) + Vec3(.5));
-            const bool is_in = depth_in(pyramid, point) > Pyramid::least_distance;
+            const bool is_in = depth_in(pyramid, point) > Pyramid::min_distance;
             CHECK((place == Pyramid::Place::across || is_in == (place == Pyramid::Place::inside)));
         }
     }

@@ -23,7 +23,7 @@ inline void weigh_emitters(const EmitterArrays& emitters, std::size_t count,
 
         // The test is that of may_see: a corner of each must lie in front of the other's plane.
         double highest = ahead, lowest = below; // of the centres
-        double least_ahead = ahead, least_below = below;
+        double min_ahead = ahead, min_below = below;
         for (std::size_t i = 0; i < 4; ++i) {
             const double height = to.normal[0] * (emitters.corner[i][0][k] - to.centre[0]) +
                                   to.normal[1] * (emitters.corner[i][1][k] - to.centre[1]) +
@@ -33,20 +33,19 @@ inline void weigh_emitters(const EmitterArrays& emitters, std::size_t count,
                                  nz[k] * (to.corner[i][2] - cz[k]);
             highest = greater(highest, height);
             lowest = greater(lowest, depth);
-            least_ahead = lesser(least_ahead, height);
-            least_below = lesser(least_below, depth);
+            min_ahead = lesser(min_ahead, height);
+            min_below = lesser(min_below, depth);
         }
         const double least = 1e-12 + 1e-7 * r;
         const bool may_see = (highest > least) & (lowest > least);
 
         // No point of either is nearer to the other than to its plane.
-        const double nearest =
-            greater(greater(r - to.radius, 0.0), greater(least_ahead, least_below));
+        const double nearest = greater(greater(r - to.radius, 0.0), greater(min_ahead, min_below));
         const double square = pi * r2 + area[k];
         const double excess = __builtin_sqrt(square / (pi * nearest * nearest + area[k]));
-        const double least_cosine = (to.side + side[k]) * 0.5;
-        const double cosines = r2 > 0 ? lesser(greater(ahead, least_cosine), r) *
-                                            lesser(greater(below, least_cosine), r) / r2
+        const double min_cosine = (to.side + side[k]) * 0.5;
+        const double cosines = r2 > 0 ? lesser(greater(ahead, min_cosine), r) *
+                                            lesser(greater(below, min_cosine), r) / r2
                                       : 1.0;
         const double light = emitters.light[k], factor = cosines * area[k] / square;
         const double weight = light * factor * excess, square_found = light * light * factor;

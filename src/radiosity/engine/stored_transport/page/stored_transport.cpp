@@ -29,7 +29,7 @@ namespace hemilux::plain {
 namespace {
 
 constexpr int scalings = 20;
-constexpr int most_sweeps = 100'000;
+constexpr int max_sweeps = 100'000;
 
 /// The counts of what rays hit; row i of c belongs to the rays of patch i.
 struct Counts {
@@ -42,7 +42,7 @@ class StoredTransport final : public Solver {
     explicit StoredTransport(const SolverInput& input)
         : input_(input), n_(static_cast<std::uint32_t>(input.mesh.patches().size())),
           solution_(solution_before_steps(input)) {
-        if (n_ > most_patches_of_stored_transport)
+        if (n_ > max_patches_of_stored_transport)
             throw std::invalid_argument("too many patches to keep all pairs of them");
         counts_.assign(batches + 1, Counts(n_));
     }
@@ -122,7 +122,7 @@ class StoredTransport final : public Solver {
         std::vector<Vec3> B(n_, Vec3(0.0));
         double change = 1, all = 0;
         for (int sweep = 0; change > 1e-12 * all && !input_.monitor.interrupted; ++sweep) {
-            if (sweep == most_sweeps)
+            if (sweep == max_sweeps)
                 throw SolveError("these rays have not seen where light leaves the scene or is "
                                  "absorbed; a larger --rays looks for it with more",
                                  0);

@@ -10,8 +10,8 @@ namespace hemilux::plain {
 
 /// Makes stored transport, which is not in the paper: all bounces are solved on what rays hit. It
 /// keeps all pairs of patches, 48 bytes each. Throws std::invalid_argument if there are more than
-/// `most_patches_of_stored_transport` patches.
+/// `max_patches_of_stored_transport` patches.
 [[nodiscard]] std::unique_ptr<Solver> stored_transport(const SolverInput& input);
-inline constexpr std::size_t most_patches_of_stored_transport = 2000;
+inline constexpr std::size_t max_patches_of_stored_transport = 2000;
 
 } // namespace hemilux::plain
