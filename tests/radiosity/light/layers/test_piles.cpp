@@ -5,13 +5,14 @@
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
+#include "support/layered_model.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
 #include <algorithm>
 
 using namespace hemilux;
-using test::Model;
+using Model = test::LayeredModel;
 
 namespace {
 
