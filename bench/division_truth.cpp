@@ -19,7 +19,7 @@
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/light/division/adaptive_division.h"
 #include "radiosity/light/final_gather/final_gather.h"
-#include "radiosity/light/final_gather/linear_light.h"
+#include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/sampling/rng.h"
 

@@ -62,7 +62,7 @@ Vec3 PathReference::from_emitter(const SurfacePoint& at,
     ray.from = at.facet;
     if (!(arrives > 0) || tracer_.occluded(ray, side.facet))
         return Vec3(0.0);
-    return arrives / (arrives + density(side)) * mesh_.material(side).emission;
+    return arrives / (arrives + density(side)) * colours_at(mesh_, side, point).emission;
 }
 
 Vec3 PathReference::irradiance(const SurfacePoint& at, std::size_t paths,
@@ -99,9 +99,9 @@ Vec3 PathReference::along_path(SurfacePoint at, Vertex vertex, std::mt19937_64& 
         if (patch == none)
             return found;
         const Patch& side = mesh_.patches()[patch];
-        const Material& material = mesh_.material(side);
         const Vec3 point = ray.origin + hit->t * ray.direction;
-        if (material.emission != Vec3(0.0)) {
+        const Colours material = colours_at(mesh_, side, point);
+        if (material.emission != Vec3(0.0) && density(side) > 0) {
             const double arrives = kernel(at, point, side.normal);
             found += arrives / (arrives + density(side)) * weight * material.emission;
         }

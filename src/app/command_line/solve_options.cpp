@@ -68,6 +68,12 @@ void add_stop_options(Command command, StopRule& stop) {
         "after N rays, even if the error is not reached [1e8 and 1000 a patch]");
 }
 
+void add_whole_error_option(Command command, SolveSettings& settings) {
+    command.add_flag("--whole-error", settings.whole_error,
+                     "also find out how far the light within patches is from theirs; takes up to "
+                     "half as many rays again");
+}
+
 void add_output_options(Command command, SolveSettings& settings) {
     add_parsed(
         command, "-o,--output", "FILE",
@@ -229,6 +235,7 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_plain_option(method, settings.plain);
     add_own_options(command.under(own_group), methods(), settings.options);
     add_stop_options(command.under("Stop at the first that is met"), settings.stop);
+    add_whole_error_option(command, settings);
     add_target_option(command.under("Target"), settings.target);
     add_output_options(outputs, settings);
     add_point_options(outputs, settings);

@@ -5,6 +5,7 @@
 #include "app/division/auto_division.h"
 #include "app/division/default_division.h"
 #include "app/division/whole_error.h"
+#include "app/gathering/gathered_light.h"
 #include "app/loading/load.h"
 #include "app/loading/reference.h"
 #include "app/memory/memory.h"
@@ -87,7 +88,7 @@ bool has_pictures(const SolveSettings& settings) {
 double bytes_of_outputs(const SolveSettings& settings, std::size_t points) {
     return (has_pictures(settings) ? bytes_of_picture(settings.view.size, settings.gather_pictures)
                                    : 0) +
-           bytes_of_points(points, settings.gather) +
+           bytes_of_points(points, settings.rays_of_gather()) +
            bytes_of_lightmap(settings.lightmap.value_or(0));
 }
 
@@ -260,9 +261,26 @@ void add_errors(Statistics& statistics, const Problem& problem, const Divided& d
             settings.ranks->of_each(RankFigures{settings.ranks->work(), statistics.bytes_peak});
 }
 
+/// Gathers light where outputs show that; chooses the camera of pictures.
+GatheredLight gather(const Problem& problem, Run& done, const Solution& solution,
+                     Statistics& statistics) {
+    const SolveSettings& settings = problem.settings();
+    if (solution.steps == 0 || !gathers(settings) || !settings.ranks->is_first())
+        return {};
+    const OnThisRank works_alone(problem.monitor.interrupted);
+    const LitScene lit{problem.mesh(), problem.tracer(), solution.radiosity,
+                       settings.options.threads};
+    if (has_pictures(settings) && !done.camera)
+        done.camera = shown_camera_of(settings.view, lit, settings.verbosity);
+    return gather_light(settings, problem.mesh(), problem.tracer(), solution,
+                        problem.loaded.points, done.camera.value_or(Camera()), problem.monitor,
+                        statistics);
+}
+
 /// Writes the outputs; returns the exit code.
 int write(const Problem& problem, const Run& done, const Solution& solution, Statistics& statistics,
-          const std::optional<Reference>& reference, const Stopwatch& started) {
+          const GatheredLight& gathered, const std::optional<Reference>& reference,
+          const Stopwatch& started) {
     const Loaded& loaded = problem.loaded;
     SolveSettings settings = loaded.settings;
     if (!settings.ranks->is_first()) // whose result is the first one's
@@ -273,7 +291,7 @@ int write(const Problem& problem, const Run& done, const Solution& solution, Sta
     const int code =
         finish(settings,
                {problem.mesh(), problem.tracer(), solution, settings.options, statistics, done.rows,
-                loaded.points, loaded.scene.warnings, problem.monitor},
+                loaded.points, gathered, loaded.scene.warnings, problem.monitor},
                done.written, reference, done.notes, interrupted, started,
                loaded.resumed ? loaded.resumed->seconds : 0);
     if (interrupted && !settings.ranks->are_several())
@@ -293,7 +311,7 @@ int solve(Problem& problem, InterruptGuard& guard, const Stopwatch& started) {
     statistics.seconds_bvh = problem.prepared.seconds;
     Divided divided = divide(problem, statistics);
     const std::optional<Reference> reference = load_reference(problem, guard);
-    const Run done = take_steps(problem, divided, reference, statistics.seconds_divide);
+    Run done = take_steps(problem, divided, reference, statistics.seconds_divide);
     // Where a signal or the time left no step, the light by which patches were divided is used.
     const Solution* solution = &done.solver->solution();
     if (solution->steps == 0 && divided.rough.steps > 0)
@@ -305,7 +323,8 @@ int solve(Problem& problem, InterruptGuard& guard, const Stopwatch& started) {
         solution = &*linear;
     }
     add_errors(statistics, problem, divided, *solution, done.seconds);
-    return write(problem, done, *solution, statistics, reference, started);
+    const GatheredLight gathered = gather(problem, done, *solution, statistics);
+    return write(problem, done, *solution, statistics, gathered, reference, started);
 }
 
 } // namespace

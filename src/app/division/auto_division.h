@@ -37,9 +37,6 @@ struct Divided {
     std::optional<double> sampling = {};
     /// The error of the division, if that run does not go on.
     std::optional<DivisionError> error = {};
-    /// What the division leaves on gathered light, which takes the place of `error` where such
-    /// light is given out.
-    std::optional<DivisionError> spread = {};
 };
 
 using BeginSolver = std::function<std::unique_ptr<Solver>()>;

@@ -11,23 +11,20 @@ namespace {
 /// The bytes that stored transport takes for a patch, and the patch with its outputs.
 constexpr std::uint64_t bytes_of_patch = 16'384;
 
-/// The most patches with which large models are still divided.
-constexpr std::size_t max_patches_of_large_models = 200'000;
+bool writes_mesh(const SolveSettings& settings) {
+    return std::ranges::any_of(settings.outputs, [](const Output& output) {
+        return output.kind == OutputKind::ply || output.kind == OutputKind::glb ||
+               output.kind == OutputKind::vtu;
+    });
+}
 
 } // namespace
-
-bool is_large_by_default(const SolveSettings& settings, std::size_t patches) {
-    return !settings.divide_given && patches >= max_patches_by_default;
-}
 
 AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches) {
     AdaptiveDivision division{.error = share_of_division * whole_error(settings),
                               .seed = settings.options.seed,
                               .threads = settings.options.threads};
-    if (is_large_by_default(settings, patches))
-        division.max_patches =
-            patches + (patches < max_patches_of_large_models ? max_patches_by_default : 0);
-    else if (!settings.divide_given)
+    if (!settings.divide_given)
         division.max_patches = max_patches_by_default;
     if (settings.scene.memory) {
         division.memory = *settings.scene.memory / 2;
@@ -40,7 +37,7 @@ AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches)
 
 bool divides_by_default(const SolveSettings& settings, std::size_t patches) {
     return !settings.divide_given &&
-           (patches < max_patches_by_default || gives_gathered_light(settings)) &&
+           patches < max_patches_by_default && writes_mesh(settings) &&
            settings.method == &method_of(Role::standard) && !settings.plain &&
            settings.scene.mesh.max_edge == 0 && settings.target.names().empty() &&
            !settings.stop.steps && !settings.every_step && settings.reference.empty() &&
@@ -52,6 +49,9 @@ StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
     StopRule stop = settings.stop;
     if (settings.divide_auto && (stop.error || (!stop.steps && !stop.seconds)))
         stop.error = sampling.value_or(share_of_sampling * whole_error(settings));
+    else if (gives_gathered_light(settings) && settings.work().estimates_error &&
+             (stop.error || (!stop.steps && !stop.seconds)))
+        stop.error = sampling_of_gathered(settings);
     if (!stop.steps && !stop.seconds && !stop.error) {
         stop = settings.method->default_stop;
         stop.rays = settings.stop.rays;

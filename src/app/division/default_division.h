@@ -11,18 +11,13 @@
 namespace hemilux {
 
 /// The most patches that a division makes where it was not asked for: some hundred megabytes, some
-/// seconds. Models that have as many are large.
+/// seconds. Models that have as many are not divided.
 inline constexpr std::size_t max_patches_by_default = 20'000;
-/// The relative error to which large models are divided [-]. They are divided only where gathered
-/// light would be wrong by more than this.
-inline constexpr double error_of_large_models = .05;
 
 /// Returns whether a plain run on so many patches divides them. It does where the method is the
-/// standard one, and what was asked for says nothing of patches or single steps.
+/// standard one, what was asked for says nothing of patches or single steps, and a mesh is written,
+/// which shows no more than its patches have.
 [[nodiscard]] bool divides_by_default(const SolveSettings& settings, std::size_t patches);
-
-/// Returns whether the patches of such a run are those of a large model.
-[[nodiscard]] bool is_large_by_default(const SolveSettings& settings, std::size_t patches);
 
 /// Returns how patches are divided: to which error of the patches, and to how many.
 [[nodiscard]] AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches);

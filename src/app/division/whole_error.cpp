@@ -22,19 +22,11 @@ constexpr std::uint64_t share_of_rays = 2;
 constexpr double resolved_on_fixed_patches = .01;
 
 /// Enters the errors into the statistics. With --divide auto the estimated error is that of the
-/// light as given out: gathered, or both errors of patches together.
-void enter(Statistics& statistics, const DivisionError& of_patches, bool divide_auto,
-           const std::optional<DivisionError>& gathered) {
+/// light as given out: both errors of patches together.
+void enter(Statistics& statistics, const DivisionError& of_patches, bool divide_auto) {
     statistics.error_division = of_patches.error;
     statistics.error_division_uncertainty = of_patches.uncertainty;
-    if (gathered) {
-        // The error is relative to the light itself, whose square is larger than that of the
-        // patches' means.
-        const double within = std::isfinite(of_patches.error) ? of_patches.error : 0;
-        const double light = std::sqrt(1 - std::min(within * within, 1.0));
-        statistics.estimated_error = light * gathered->error;
-        statistics.estimated_error_uncertainty = light * gathered->uncertainty;
-    } else if (divide_auto) {
+    if (divide_auto) {
         const double whole = std::hypot(statistics.error_sampling, of_patches.error);
         statistics.estimated_error_uncertainty =
             std::hypot(statistics.error_sampling * statistics.estimated_error_uncertainty,
@@ -51,13 +43,9 @@ double whole_error(const SolveSettings& settings) {
     return settings.stop.error.value_or(gives_gathered_light(settings) ? usual_gathered : usual);
 }
 
-double resolved_gathered_error(const SolveSettings& settings) {
-    constexpr double share = .4; // squared it adds little to what is known of the whole
-    return share * whole_error(settings);
-}
-
-bool gathers_near(const SolveSettings& settings) {
-    return std::ranges::any_of(settings.outputs, is_picture, &Output::kind);
+double sampling_of_gathered(const SolveSettings& settings) {
+    constexpr double most = .05;
+    return std::max(most, whole_error(settings));
 }
 
 bool gives_gathered_light(const SolveSettings& settings) {
@@ -77,13 +65,14 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
     statistics.error_sampling = statistics.estimated_error;
     if (!solution.weight.empty() && !settings.divide_auto) // rays are for the target's own patches
         return;
-    const bool is_gathered = settings.divide_auto && gives_gathered_light(settings);
-    std::optional<DivisionError> of_patches, spread = divided.spread;
+    if (!settings.divide_auto && !settings.whole_error)
+        return;
+    std::optional<DivisionError> of_patches;
     if (solution.steps == divided.steps.size())
         of_patches = divided.error;
     if (settings.divide_auto && solution.weight.empty())
-        statistics.estimated_error_of = is_gathered ? ErrorOf::gathered : ErrorOf::surfaces;
-    if (!of_patches && !spread && (solution.steps == 0 || interrupted)) {
+        statistics.estimated_error_of = ErrorOf::surfaces;
+    if (!of_patches && (solution.steps == 0 || interrupted)) {
         if (settings.divide_auto) // the whole error is not known
             statistics.estimated_error = statistics.estimated_error_uncertainty =
                 std::numeric_limits<double>::quiet_NaN();
@@ -94,13 +83,6 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
     DivisionErrorOptions options{
         .max_rays = (solution.rays_energy + solution.rays_density + statistics.rays_divide) /
                     share_of_rays};
-    if (is_gathered && !spread) {
-        options.seed = hash_words({settings.options.seed, 5});
-        options.negligible = resolved_gathered_error(settings);
-        spread = spread_error(mesh, tracer, solution, gathers_near(settings), options, workers,
-                              interrupted);
-        statistics.rays_division_error += spread->rays;
-    }
     if (!of_patches) {
         options.seed = hash_words({settings.options.seed, 1});
         options.negligible = settings.divide_auto ? 0 : resolved_on_fixed_patches;
@@ -111,24 +93,25 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
         const double before = statistics.seconds_division_error;
         statistics.seconds_division_error = (before > 0 ? before : 0) + watch.seconds();
     }
-    std::optional<DivisionError> gathered;
-    if (is_gathered)
-        gathered = gathered_error(*spread, mesh, solution);
-    enter(statistics, *of_patches, settings.divide_auto, gathered);
+    enter(statistics, *of_patches, settings.divide_auto);
 }
 
 std::string whole_error_note(const SolveSettings& settings, const Statistics& statistics) {
     const bool is_asked = settings.stop.error || (!settings.stop.steps && !settings.stop.seconds);
-    if (!settings.divide_auto || !is_asked || statistics.estimated_error <= whole_error(settings) ||
+    const double asked = whole_error(settings);
+    if (!is_asked)
+        return "";
+    if (statistics.estimated_error_of == ErrorOf::gathered)
+        return statistics.error_bound <= asked
+                   ? ""
+                   : "the run ended before the error of gathered light was surely below " +
+                         percent(asked) + ", for which more rays are needed (--max-rays, --time)";
+    if (!settings.divide_auto || statistics.estimated_error <= asked ||
         !std::isfinite(statistics.error_division))
         return "";
     const std::string options = settings.divide_given ? "--memory, --time" : "--divide auto";
-    if (statistics.estimated_error_of == ErrorOf::gathered)
-        return "the run ended before the error of " + percent(whole_error(settings)) +
-               " of gathered light was reached, which more patches (" + options +
-               ") and more rays (--max-rays, --time) make less";
     const bool of_division = statistics.error_division > statistics.error_sampling;
-    return "the run ended before the whole error of " + percent(whole_error(settings)) +
+    return "the run ended before the whole error of " + percent(asked) +
            " was reached; most of what is left is of " +
            (of_division ? "the division, which more patches (" + options + ") make less"
                         : "sampling, which more rays (--max-rays, --time) make less");

@@ -9,20 +9,19 @@
 
 namespace hemilux {
 
-/// Returns the whole error that a run with --divide auto is to reach, relative [-].
+/// Returns the whole error that a run is to reach, relative [-].
 [[nodiscard]] double whole_error(const SolveSettings& settings);
 
 /// Returns whether all light that is given out is gathered at points or for pictures, none as
 /// patches have it. The whole error is then that of gathered light.
 [[nodiscard]] bool gives_gathered_light(const SolveSettings& settings);
-/// Returns the error of gathered light by the division [-] below which errors are not resolved.
-[[nodiscard]] double resolved_gathered_error(const SolveSettings& settings);
-/// Returns whether light is gathered for pictures, whose rays read the patches that they meet
-/// however near.
-[[nodiscard]] bool gathers_near(const SolveSettings& settings);
+/// Returns the error of sampling [-] that patches may have where all light is gathered from them:
+/// gathers average over patches, and learn what these lack.
+[[nodiscard]] double sampling_of_gathered(const SolveSettings& settings);
 
-/// Adds the error of the division to the statistics of a solution, and with --divide auto makes the
-/// estimated error that of the light as given out. With --for it stays unknown.
+/// Adds the error of the division to the statistics of a solution where --divide auto or
+/// --whole-error asks for it. With --divide auto the estimated error becomes that of the light as
+/// given out. With --for it stays unknown.
 void add_division_error(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
                         const Tracer& tracer, const Solution& solution, const Divided& divided,
                         const StopFlag& interrupted);

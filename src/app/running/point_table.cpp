@@ -1,9 +1,6 @@
 #include "app/running/point_table.h"
 
-#include "app/rendering/view.h"
 #include "io/files/error.h"
-#include "parallel/workers.h"
-#include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,23 +19,11 @@ void check_distances(const std::string& path, std::span<const NamedPoint> points
     }
 }
 
-void write_points(const std::string& path, unsigned gather, const Results& results) {
-    const auto& [mesh, tracer, solution, options, statistics, steps, points, warnings, monitor] =
-        results;
-    std::vector<Sensor> sensors;
-    for (const NamedPoint& point : points)
-        sensors.push_back(
-            sensor_at(mesh, tracer, mesh.frame().to_local(point.position), point.normal));
-    const PictureTime time(monitor.interrupted.own().wished);
-    const std::vector<PointLight> lights =
-        light_at(sensors, mesh, tracer, solution,
-                 {.rays = PointSettings::rays_per_gather_ray * gather,
-                  .seed = hash_words({options.seed, 2}),
-                  .give_up = [&time] { return time.is_over(); }},
-                 Workers(options.threads));
-    if (lights.size() < sensors.size())
+void write_points(const std::string& path, const Results& results) {
+    const auto& [cache, sensors, found] = results.gathered;
+    if (found.lights.size() < results.points.size())
         throw Interrupted();
-    write_points_table(path, mesh, points, sensors, lights);
+    write_points_table(path, results.mesh, results.points, sensors, found.lights);
 }
 
 } // namespace hemilux

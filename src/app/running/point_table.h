@@ -11,9 +11,8 @@ namespace hemilux {
 /// tell rays to it apart.
 void check_distances(const std::string& path, std::span<const NamedPoint> points, const Mesh& mesh);
 
-/// Gathers the light and writes the table. Throws OutputError, and Interrupted some seconds after a
-/// signal.
-/// `gather` is the number of rays of --gather.
-void write_points(const std::string& path, unsigned gather, const Results& results);
+/// Writes the table of what was gathered. Throws OutputError, and Interrupted where a signal ended
+/// that.
+void write_points(const std::string& path, const Results& results);
 
 } // namespace hemilux

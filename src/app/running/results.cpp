@@ -73,16 +73,14 @@ class Picture {
   private:
     [[nodiscard]] Image render(Verbosity verbosity) {
         const LitScene scene = results_.lit();
-        camera_ = camera_of(view_, scene);
-        if (!view_.camera)
-            log_line(verbosity, Verbosity::normal,
-                     "pictures are seen by " + camera_text(camera_) +
-                         (!view_.up && camera_.up.z == 1 ? "; --up y takes y as upwards" : ""));
+        camera_ = shown_camera_of(view_, scene, verbosity);
         const Stopwatch watch;
         RenderOptions options = picture_options(view_.size, scene.threads, time_);
         options.gather = gather_;
         options.classes = gather_ > 0 ? nullptr : &classes_.get();
         options.slope = results_.solution.slope;
+        if (results_.gathered.cache)
+            options.cells = &results_.gathered.cache->cells();
         Image image = render_view(scene, camera_, options);
         if (gather_ > 0)
             seconds_gather_ = watch.seconds();
@@ -145,7 +143,7 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path, c
 void write_mesh(const SolveSettings& settings, const Output& output, const Results& results,
                 const CornerClasses& classes, WriteReport& report) {
     VertexLight light{settings.bake == Bake::indirect
-                          ? smooth(results.mesh, classes, indirect_light(settings.gather, results))
+                          ? smooth(results.mesh, classes, indirect_light(settings.rays_of_gather(), results))
                           : baked_light(results.mesh, classes, results.solution, settings.bake),
                       settings.bake};
     light.display = display_of(settings.view, results.mesh, classes, light.of_class);
@@ -181,7 +179,7 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
 }
 
 void write_report(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, options, statistics, steps, points, warnings, monitor] =
+    const auto& [mesh, tracer, solution, options, statistics, steps, points, gathered, warnings, monitor] =
         results;
     ReportContent content{mesh,
                           solution,
@@ -222,12 +220,12 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
     statistics.settings = settings.given;
     const Stopwatch writing;
     SharedClasses classes(results.mesh);
-    Picture picture(settings.view, settings.gather_pictures ? settings.gather : 0, results,
+    Picture picture(settings.view, settings.gather_pictures ? settings.rays_of_gather() : 0, results,
                     classes);
     WriteReport report;
     if (!settings.points.output.empty())
         report.attempt(settings.points.output,
-                       [&] { write_points(settings.points.output, settings.gather, results); });
+                       [&] { write_points(settings.points.output, results); });
     const double seconds_points = writing.seconds();
     std::vector<WriteReport> reports(settings.outputs.size());
     const auto write = [&](std::size_t k) {

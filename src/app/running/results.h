@@ -1,6 +1,7 @@
 #pragma once
 // The files that a run leaves behind, as they were asked for.
 
+#include "app/gathering/gathered_light.h"
 #include "app/rendering/view.h"
 #include "app/running/write_report.h"
 #include "app/settings/settings.h"
@@ -25,6 +26,7 @@ struct Results {
     Statistics& statistics;      ///< all but the seconds of outputs
     std::span<const StepRow> steps;
     std::span<const NamedPoint> points;
+    const GatheredLight& gathered;
     std::span<const std::string> warnings; ///< of reading and of the run
     Monitor& monitor; ///< once it is interrupted, densities and what takes long are left out
 

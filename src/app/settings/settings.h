@@ -90,6 +90,7 @@ struct SolveSettings {
     SolveOptions options;
     bool divide_given = false; ///< --divide was; else divides_by_default() decides
     bool divide_auto = false;  ///< patches are divided where the light changes within them
+    bool whole_error = false;  ///< what patches leave out is found out
     StopRule stop;             ///< as given; the method's own rule stands in for an empty one
     ViewSettings view;
     std::vector<Output> outputs;
@@ -106,7 +107,9 @@ struct SolveSettings {
     CheckpointSettings checkpoint;
     PointSettings points;
     TargetSettings target;
-    unsigned gather = default_gather; ///< rays at a point of a surface that a picture shows
+    /// Rays at a point of a surface that a picture shows, if given; points have more.
+    std::optional<unsigned> gather;
+    [[nodiscard]] unsigned rays_of_gather() const { return gather.value_or(default_gather); }
     static constexpr unsigned default_gather = 16, max_gather = 1024;
     static constexpr int max_lightmap = 16384;
     /// The number of rays from a patch for each ray of --gather, where the indirect light is baked.

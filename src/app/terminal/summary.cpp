@@ -51,13 +51,14 @@ std::string errors_text(const Statistics& s) {
                      percent(s.error_division_uncertainty);
         return error + "; elsewhere it is rough: " + percent(s.estimated_error_elsewhere);
     }
+    if (s.estimated_error_of == ErrorOf::gathered)
+        return error + ", surely at most " + percent(s.error_bound) +
+               ", of gathered light; it reads patches of sampling error " +
+               percent(s.error_sampling);
     if (!std::isfinite(s.error_division))
-        return error;
+        return error + ", of the patches' mean light; --whole-error finds what they leave out";
     const std::string division =
         percent(s.error_division) + ", give or take " + percent(s.error_division_uncertainty);
-    if (s.estimated_error_of == ErrorOf::gathered)
-        return error + ", of light gathered from the patches, whose own errors are: sampling " +
-               percent(s.error_sampling) + ", division " + division;
     if (s.estimated_error_of == ErrorOf::surfaces)
         return error + ", of the light on the surfaces: sampling " + percent(s.error_sampling) +
                ", division " + division;

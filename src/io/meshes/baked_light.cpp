@@ -3,6 +3,7 @@
 #include "geometry/numeric.h"
 #include "io/pictures/image.h"
 #include "radiosity/paper/scene/mesh.h"
+#include "radiosity/light/cached_light/patch_light.h"
 
 namespace hemilux {
 namespace {

@@ -3,7 +3,8 @@
 
 #include "io/pictures/tone.h"
 #include "io/results/smooth.h"
-#include "radiosity/light/final_gather/linear_light.h"
+#include "radiosity/light/cached_light/patch_light.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <vector>
 

@@ -50,7 +50,7 @@ struct SomePoints {
 
 } // namespace
 
-PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
+PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
                              const CameraRays& camera, int width, int height,
                              const PictureGatherOptions& options, const Workers& workers)
     : options_(options), in_parts_(mesh, tracer, light),

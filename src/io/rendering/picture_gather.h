@@ -33,7 +33,7 @@ struct PictureGatherOptions {
 
 class PictureGather {
   public:
-    PictureGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
+    PictureGather(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
                   const CameraRays& camera, int width, int height,
                   const PictureGatherOptions& options, const Workers& workers);
 

@@ -8,6 +8,7 @@
 #include "io/rendering/visible_facets.h"
 #include "io/results/smooth.h"
 #include "parallel/workers.h"
+#include "radiosity/light/cached_light/surface_light.h"
 #include "radiosity/light/textures/scene_textures.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/solution.h"
@@ -139,8 +140,9 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
         return shaded_picture(visible, Shading(mesh, radiosity, options), options, check);
     const auto samples = static_cast<unsigned>(options.samples);
     const PictureGather gather(
-        mesh, tracer, PatchLight(radiosity, options.slope), rays, options.width, options.height,
-        {.rays = options.gather, .samples = samples, .check = check}, Workers(options.threads));
+        mesh, tracer, SurfaceLight(mesh, PatchLight(radiosity, options.slope), options.cells), rays,
+        options.width, options.height, {.rays = options.gather, .samples = samples, .check = check},
+        Workers(options.threads));
     return gathered_picture(mesh, visible, gather, offsets, options.width, options.height, check,
                             Workers(options.threads));
 }

@@ -11,6 +11,7 @@
 namespace hemilux {
 
 struct CornerClasses;
+class IrradianceCells;
 struct Slope;
 
 struct RenderOptions {
@@ -26,6 +27,7 @@ struct RenderOptions {
     unsigned threads = 0;                   ///< 0: one per core. The picture does not depend on it
     const CornerClasses* classes = nullptr; ///< of the mesh, where they are known already
     std::span<const Slope> slope = {};      ///< of the patches' light; empty: none
+    const IrradianceCells* cells = nullptr; ///< what gathers read besides, where walks found it
     /// All threads ask it before each band of rows; true ends the picture with Interrupted.
     std::function<bool()> give_up = {};
 };

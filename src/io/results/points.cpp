@@ -101,9 +101,9 @@ void write_points_table(const std::string& path, const Mesh& mesh,
         csv::append_fields(text, points[k].given_normal);
         csv::append_fields(text, lights[k].irradiance);
         if (sensors[k].patch != none) {
-            const Material& material = mesh.material(sensors[k].patch);
-            csv::append_fields(text,
-                               material.emission + material.reflectance * lights[k].irradiance);
+            const Colours here =
+                colours_at(mesh, mesh.patches()[sensors[k].patch], sensors[k].at.position);
+            csv::append_fields(text, here.emission + here.reflectance * lights[k].irradiance);
         } else {
             text += ",,,";
         }

@@ -4,7 +4,7 @@
 #include "geometry/numeric.h"
 #include "io/polygons/convex_triangles.h"
 #include "io/results/corner_meetings.h"
-#include "radiosity/light/final_gather/linear_light.h"
+#include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>

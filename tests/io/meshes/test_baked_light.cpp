@@ -2,6 +2,7 @@
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
+#include "radiosity/light/cached_light/patch_light.h"
 
 using namespace hemilux;
 using namespace hemilux::test;

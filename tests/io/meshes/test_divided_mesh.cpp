@@ -9,6 +9,7 @@
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
+#include "radiosity/light/cached_light/patch_light.h"
 
 #include <algorithm>
 #include <array>

@@ -7,6 +7,7 @@
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
+#include "radiosity/light/cached_light/patch_light.h"
 
 #include <cstring>
 #include <nlohmann/json.hpp>

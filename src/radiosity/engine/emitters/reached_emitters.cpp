@@ -11,13 +11,16 @@ namespace hemilux {
 ReachedEmitters::ReachedEmitters(const Mesh& mesh) : ReachedEmitters(mesh, small_emitters(mesh)) {}
 
 ReachedEmitters::ReachedEmitters(const Mesh& mesh, std::span<const std::uint32_t> emitters)
-    : emission_(mesh.patches().size(), Vec3(0.0)), sides_(sides_of_emitters(mesh, emitters)),
+    : mesh_(mesh), emission_(mesh.patches().size(), Vec3(0.0)), sides_(sides_of_emitters(mesh, emitters)),
       choice_(mesh, sides_) {
     for (const std::uint32_t i : emitters)
         emission_[i] = mesh.material(i).emission;
-    for (const Patch& side : sides_)
-        emitters_.push_back({side, PolygonSampler(side.shape), near_radii * radius_of(side),
-                             mesh.material(side).emission});
+    for (const Patch& side : sides_) {
+        const bool varies = mesh.emits_by_texture(side);
+        emitters_.push_back({side, PolygonSampler(side.shape),
+                             varies ? 0 : near_radii * radius_of(side),
+                             mesh.material(side).emission, varies});
+    }
 }
 
 void ReachedEmitters::weigh(const SurfacePoint& point, WeighedEmitters& weighed) const {
@@ -38,7 +41,11 @@ ReachedEmitters::aim(const EmitterChoice::Choice& chosen, const SurfacePoint& po
                                     emitter.points, u, emitter.near, ray);
     if (!(factor > 0))
         return std::nullopt;
-    return Aimed{ray, emitter.side.facet, factor / chosen.chance, emitter.emission};
+    const Vec3 emission =
+        emitter.varies
+            ? colours_at(mesh_, emitter.side, ray.origin + ray.t_max * ray.direction).emission
+            : emitter.emission;
+    return Aimed{ray, emitter.side.facet, factor / chosen.chance, emission};
 }
 
 void ReachedEmitters::add_rays(const SurfacePoint& point, const WeighedEmitters& weighed,

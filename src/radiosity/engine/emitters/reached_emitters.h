@@ -1,6 +1,7 @@
 #pragma once
 // The emitters that points reach by shadow rays, and these rays. Each goes to an emitter that is
 // drawn by its light (emitter_choice.h), and brings it by its exact factor (point_to_patch.h).
+// Where its emission varies by a texture, the ray brings that of the texel where it ends.
 
 #include "bvh/tracer.h"
 #include "geometry/polygon_sampler.h"
@@ -44,9 +45,12 @@ class ReachedEmitters {
     ReachedEmitters(const Mesh& mesh, std::span<const std::uint32_t> emitters);
 
     [[nodiscard]] bool empty() const { return emitters_.empty(); }
+    [[nodiscard]] std::size_t count() const { return emitters_.size(); }
     [[nodiscard]] const EmitterChoice& choice() const { return choice_; }
-    /// Returns what a patch emits that shadow rays find [W/m2].
+    /// Returns what a patch emits on average that shadow rays find [W/m2].
     [[nodiscard]] const Vec3& emission(std::uint32_t patch) const { return emission_[patch]; }
+    /// Returns whether shadow rays find the emission of a patch.
+    [[nodiscard]] bool contains(std::uint32_t patch) const { return emission_[patch] != Vec3(0.0); }
     /// Prepares shadow rays of a point. It has the chances of its patch, if it names that.
     void weigh(const SurfacePoint& point, WeighedEmitters& weighed) const;
     /// Adds rays for `count` points of the sequence, `first` and those after it; some see nothing
@@ -64,7 +68,7 @@ class ReachedEmitters {
         Ray ray;
         std::uint32_t target; ///< the emitter's facet
         double factor;        ///< [-], of the emission
-        const Vec3& emission; ///< [W/m2]
+        Vec3 emission;        ///< [W/m2], of the texel where the ray ends
     };
     [[nodiscard]] std::optional<Aimed> aim(const EmitterChoice::Choice& chosen,
                                            const SurfacePoint& point, Vec2 u) const;
@@ -73,10 +77,12 @@ class ReachedEmitters {
     struct Emitter {
         Patch side; ///< of a whole facet
         PolygonSampler points;
-        double near; ///< from the centre, see look_from
+        double near; ///< from the centre, see look_from; 0 where the emission varies
         Vec3 emission;
+        bool varies; ///< its emission, by a texture
     };
 
+    const Mesh& mesh_;
     std::vector<Vec3> emission_; ///< by patch
     std::vector<Patch> sides_;
     std::vector<Emitter> emitters_;

@@ -25,10 +25,14 @@ class FinalGather {
     /// The rays of one round: cosine-distributed ones, and up to so many shadow rays.
     static constexpr unsigned usual_random_rays = 16, usual_shadow_rays = 4;
 
-    /// `light` is what patches send. All that is referred to must outlive this object.
-    FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
+    /// `light` is what surfaces send. All that is referred to must outlive this object.
+    FinalGather(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
                 unsigned random_rays = usual_random_rays, unsigned shadow_rays = usual_shadow_rays)
         : paths_(mesh, tracer, light), random_rays_(random_rays), shadow_rays_(shadow_rays) {}
+    /// Gathers what patches send.
+    FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
+                unsigned random_rays = usual_random_rays, unsigned shadow_rays = usual_shadow_rays)
+        : FinalGather(mesh, tracer, SurfaceLight(mesh, light), random_rays, shadow_rays) {}
 
     /// Returns `estimates` of the irradiance at each point [W/m2], independent of each other and
     /// without bias for the light that the solution sends. Those of point k stand from k *

@@ -1,5 +1,6 @@
 #include "radiosity/light/final_gather/gather_in_parts.h"
 
+#include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -91,9 +92,11 @@ void GatherInParts::read_patches(std::span<const SurfacePoint> points, const Ray
             light.nearness += 1 / (rays_there * std::max(hit.t, touching));
             if (patch == none)
                 continue;
-            const Vec3 sent =
-                radiosity_at(mesh_, light_, patch, ray.origin + hit.t * ray.direction) -
-                emitters_.emission(patch);
+            const Vec3 point = ray.origin + hit.t * ray.direction;
+            const Colours here = colours_at(mesh_, mesh_.patches()[patch], point);
+            Vec3 sent = here.reflectance * light_.irradiance(patch, point).value;
+            if (!emitters_.contains(patch))
+                sent += here.emission;
             light.irradiance += sent / rays_there;
             const double square = mean_of_channels(sent * sent);
             light.squares += square;

@@ -5,8 +5,8 @@
 
 #include "bvh/tracer.h"
 #include "radiosity/engine/emitters/reached_emitters.h"
+#include "radiosity/light/cached_light/surface_light.h"
 #include "radiosity/light/final_gather/bright_patches.h"
-#include "radiosity/light/final_gather/linear_light.h"
 #include "radiosity/light/final_gather/surface_points.h"
 
 #include <cstdint>
@@ -43,10 +43,10 @@ struct IndirectLight {
 
 class GatherInParts {
   public:
-    /// `light` is what patches send. All that is referred to must outlive this object.
-    GatherInParts(const Mesh& mesh, const Tracer& tracer, PatchLight light)
+    /// `light` is what surfaces send. All that is referred to must outlive this object.
+    GatherInParts(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light)
         : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh),
-          bright_(mesh, light.radiosity, emitters_) {}
+          bright_(mesh, light.of_patches().radiosity, emitters_) {}
 
     /// Returns the light of emitters at each point by its own samples, on the calling thread, with
     /// a shadow ray for each. If shadows are left out, no ray is traced, and nothing arrives.
@@ -77,7 +77,7 @@ class GatherInParts {
 
     const Mesh& mesh_;
     const Tracer& tracer_;
-    PatchLight light_;
+    SurfaceLight light_;
     ReachedEmitters emitters_;
     BrightPatches bright_;
 };

@@ -1,5 +1,6 @@
 #include "radiosity/light/final_gather/gather_paths.h"
 
+#include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -11,10 +12,8 @@
 namespace hemilux {
 namespace {
 
-/// The distance, in sides of a square of a patch's area, below which the patch is not taken to send
-/// the same light, or a linear function, all over. The light that it reflects there is gathered
-/// too, `max_bounces` times at most.
-constexpr double near_sides = .5;
+/// The light that is reflected where it is too near to be read is gathered too, so many times at
+/// the most.
 constexpr unsigned max_bounces = 8;
 
 /// The largest share of paths that go on where they end by chance alone: otherwise they would not
@@ -62,28 +61,29 @@ GatherPaths::Met GatherPaths::where_met(const PathRays& rays, std::size_t k,
     const double along = glm::dot(ray.direction, on.normal);
     const double way =
         along < 0 ? std::max(glm::dot(on.centre - ray.origin, on.normal) / along, 0.0) : 0;
-    return {k, patch, ray.origin + way * ray.direction, way};
+    const Vec3 point = ray.origin + way * ray.direction;
+    return {k, patch, point, way, colours_at(mesh_, on, point), light_.irradiance(patch, point)};
 }
 
 bool GatherPaths::is_near(const Met& met, unsigned bounce) const {
     return find_ != Find::spread_however_near && bounce < max_bounces &&
-           met.distance * met.distance < near_sides * near_sides * mesh_.patches()[met.patch].area;
+           hemilux::is_near(met.distance, met.arriving.side);
 }
 
 bool GatherPaths::end_ray(const PathRays::State& ray, const Met& met, unsigned bounce,
                           std::span<Vec3> found) const {
-    const Material& material = mesh_.material(met.patch);
-    const bool reflects = material.reflectance != Vec3(0.0);
+    const bool reflects = met.here.reflectance != Vec3(0.0);
     const bool near = reflects && is_near(met, bounce);
-    const Vec3 left_out = ray.sees_emission ? Vec3(0.0) : emitters_.emission(met.patch);
     if (find_ == Find::light) {
-        const Vec3 light =
-            near ? material.emission : radiosity_at(mesh_, light_, met.patch, met.point);
-        found[ray.place] += ray.share * (light - left_out);
+        Vec3 light = near ? Vec3(0.0) : met.here.reflectance * met.arriving.value;
+        if (ray.sees_emission || !emitters_.contains(met.patch))
+            light += met.here.emission;
+        found[ray.place] += ray.share * light;
         return near;
     }
+    const Vec3 left_out = ray.sees_emission ? Vec3(0.0) : emitters_.emission(met.patch);
     if (!ray.in_gather)
-        found[ray.place] += ray.share * (light_.radiosity[met.patch] - left_out);
+        found[ray.place] += ray.share * (light_.of_patches().radiosity[met.patch] - left_out);
     return reflects && !ray.ends;
 }
 
@@ -92,7 +92,7 @@ void GatherPaths::go_on(const PathRays::State& from, const Met& met, bool in_gat
                         std::span<Vec3> found) const {
     const Patch& on = mesh_.patches()[met.patch];
     // Russian roulette (Arvo and Kirk 1990) keeps the paths in narrow gaps and bright rooms short.
-    const Vec3& rho = mesh_.material(on).reflectance;
+    const Vec3& rho = met.here.reflectance;
     const double kept =
         std::min(std::max({rho.x, rho.y, rho.z}), find_ == Find::light ? 1 : max_kept);
     if (Rng(hash_words({from.seed, 2})).uniform() >= kept)
@@ -114,8 +114,8 @@ void GatherPaths::go_on(const PathRays::State& from, const Met& met, bool in_gat
     other.position = PolygonSampler(on.shape).sample({u, v});
     if (from.in_gather) // which reads the linear function there
         found[from.place] -= from.share / kept *
-                             (radiosity_at(mesh_, light_, met.patch, at.position) -
-                              radiosity_at(mesh_, light_, met.patch, other.position));
+                             (radiosity_at(mesh_, light_.of_patches(), met.patch, at.position) -
+                              radiosity_at(mesh_, light_.of_patches(), met.patch, other.position));
     state.share = -state.share;
     state.ends = true;
     add_rays(other, state, next);

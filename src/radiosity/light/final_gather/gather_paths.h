@@ -10,7 +10,7 @@
 
 #include "bvh/tracer.h"
 #include "radiosity/engine/emitters/reached_emitters.h"
-#include "radiosity/light/final_gather/linear_light.h"
+#include "radiosity/light/cached_light/surface_light.h"
 #include "radiosity/light/final_gather/surface_points.h"
 
 #include <cstddef>
@@ -50,8 +50,8 @@ class GatherPaths {
     /// patches are near, or that read them however near.
     enum class Find { light, spread, spread_however_near };
 
-    /// `light` is what patches send. All that is referred to must outlive this object.
-    GatherPaths(const Mesh& mesh, const Tracer& tracer, PatchLight light)
+    /// `light` is what surfaces send. All that is referred to must outlive this object.
+    GatherPaths(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light)
         : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh) {}
 
     void find(Find what) { find_ = what; }
@@ -72,6 +72,8 @@ class GatherPaths {
         std::uint32_t patch;
         Vec3 point;      ///< local frame
         double distance; ///< local frame
+        Colours here = {};
+        SurfaceLight::Irradiance arriving = {};
     };
     /// Returns whether a gather takes the light of a patch that is met from so near as a path.
     [[nodiscard]] bool is_near(const Met& met, unsigned bounce) const;
@@ -85,7 +87,7 @@ class GatherPaths {
 
     const Mesh& mesh_;
     const Tracer& tracer_;
-    PatchLight light_;
+    SurfaceLight light_;
     ReachedEmitters emitters_;
     Find find_ = Find::light;
 };

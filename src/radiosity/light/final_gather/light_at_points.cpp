@@ -2,11 +2,8 @@
 
 #include "parallel/workers.h"
 #include "radiosity/light/final_gather/final_gather.h"
-#include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
-#include "radiosity/paper/solution/error_spread.h"
-#include "radiosity/paper/solution/solution.h"
 #include "radiosity/paper/solving/stop_flag.h"
 
 #include <algorithm>
@@ -19,37 +16,62 @@ namespace {
 /// mean.
 constexpr unsigned gathers = 8;
 
+constexpr unsigned rays_of_round = FinalGather::usual_random_rays;
+
 /// The number of rays traced before give_up is asked again: a fraction of a second.
 constexpr std::size_t rays_per_block = 1 << 20;
 
-/// Returns the variance of the light that the rays of a point read, by the standard errors of the
-/// patches. Patches have errors of their own, except for a share of 1 / freedom, by which all err
-/// together.
-Vec3 variance_of_patches(std::span<std::uint32_t> met, const Solution& solution, double freedom) {
-    std::ranges::sort(met);
-    Vec3 together(0.0), alone(0.0);
-    for (std::size_t begin = 0, end = 0; begin < met.size(); begin = end) {
-        while (end < met.size() && met[end] == met[begin])
-            ++end;
-        if (met[begin] == escaped || met[begin] == absorbed)
-            break; // the largest numbers
-        const double weight = static_cast<double>(end - begin) / static_cast<double>(met.size());
-        const Vec3 sigma = weight * solution.standard_error[met[begin]];
-        together += sigma;
-        alone += sigma * sigma;
-    }
-    return glm::mix(alone, together * together, 1 / freedom);
-}
+/// The mean of the gathers of a point, and its variance.
+struct Gathered {
+    Vec3 irradiance{0.0}, variance{0.0};
+};
 
-PointLight mean_of(std::span<const Vec3> estimates) {
-    PointLight light;
+Gathered mean_of(std::span<const Vec3> estimates) {
+    Gathered mean;
     for (const Vec3& estimate : estimates)
-        light.irradiance += estimate / double(gathers);
+        mean.irradiance += estimate / double(gathers);
     Vec3 squares(0.0);
     for (const Vec3& estimate : estimates)
-        squares += (estimate - light.irradiance) * (estimate - light.irradiance);
-    light.standard_error = squares / double(gathers * (gathers - 1)); // the variance so far
-    return light;
+        squares += (estimate - mean.irradiance) * (estimate - mean.irradiance);
+    mean.variance = squares / double(gathers * (gathers - 1));
+    return mean;
+}
+
+/// Gathers at all sensors with so many rounds of rays in each of the gathers. The result is empty
+/// if it was given up.
+std::vector<Gathered> gather_at(std::span<const Sensor> sensors, FinalGather& gather,
+                                unsigned rounds, std::uint64_t seed,
+                                const PointLightOptions& options, const Workers& workers) {
+    const std::size_t rays_of_point = std::size_t{gathers} * rays_of_round * rounds;
+    const std::size_t block = std::max<std::size_t>(1, rays_per_block / rays_of_point);
+    const StopFlag never;
+    gather.set_rounds(rounds);
+    std::vector<Gathered> found;
+    for (std::size_t begin = 0; begin < sensors.size(); begin += block) {
+        if (options.give_up && options.give_up())
+            return {};
+        std::vector<SurfacePoint> at;
+        std::vector<std::uint64_t> streams;
+        for (const Sensor& sensor :
+             sensors.subspan(begin, std::min(block, sensors.size() - begin))) {
+            at.push_back(sensor.at);
+            streams.push_back(hash_words({seed, begin + at.size()}));
+        }
+        const std::vector<Vec3> estimates = gather.irradiance(at, streams, gathers, workers, never);
+        for (std::size_t k = 0; k < at.size(); ++k)
+            found.push_back(mean_of(std::span(estimates).subspan(k * gathers, gathers)));
+    }
+    return found;
+}
+
+/// Returns the noise over all points relative to their irradiance; 0 without light.
+double noise_of(std::span<const Gathered> found) {
+    double squares = 0, noise = 0;
+    for (const Gathered& point : found) {
+        noise += point.variance.x + point.variance.y + point.variance.z;
+        squares += glm::dot(point.irradiance, point.irradiance);
+    }
+    return squares > 0 ? std::sqrt(noise / squares) : 0;
 }
 
 } // namespace
@@ -66,46 +88,44 @@ Sensor sensor_at(const Mesh& mesh, const Tracer& tracer, const Vec3& position, c
     return {{down.origin + hit->t * down.direction, normal, hit->facet}, patch};
 }
 
-std::vector<PointLight> light_at(std::span<const Sensor> sensors, const Mesh& mesh,
-                                 const Tracer& tracer, const Solution& solution,
-                                 const PointLightOptions& options, const Workers& workers) {
-    const unsigned rounds =
-        std::max(1u, (options.rays + gathers * FinalGather::usual_random_rays - 1) /
-                         (gathers * FinalGather::usual_random_rays));
-    const std::size_t rays_of_point =
-        std::size_t{gathers} * FinalGather::usual_random_rays * rounds;
-    const std::size_t block = std::max<std::size_t>(1, rays_per_block / rays_of_point);
-    const double known = error_spread(mesh, solution).freedom;
-    const double freedom = known >= 1 ? known : 1;
-    FinalGather gather(mesh, tracer, solution);
-    std::vector<std::uint32_t> met;
-    gather.set_rounds(rounds);
-    gather.record_receivers(met);
-    const StopFlag never;
-    std::vector<PointLight> lights;
-    for (std::size_t begin = 0; begin < sensors.size(); begin += block) {
-        if (options.give_up && options.give_up())
+/// The first rays say how many are needed; these are traced besides, and the mean goes by the
+/// number of rays. Noise falls at least as the root of their number.
+LightAtPoints light_at(std::span<const Sensor> sensors, const Mesh& mesh, const Tracer& tracer,
+                       const SurfaceLight& light, const PointLightOptions& options,
+                       const Workers& workers) {
+    constexpr unsigned first_rounds = 1, max_growth = 16;
+    const auto rounds_of = [](double rays) {
+        return std::max(1u, static_cast<unsigned>(std::ceil(rays / (gathers * rays_of_round))));
+    };
+    FinalGather gather(mesh, tracer, light);
+    std::vector<Gathered> found;
+    unsigned next = options.rays > 0 ? rounds_of(options.rays) : first_rounds, rounds = 0;
+    for (std::uint64_t pass = 0; next > 0; ++pass) {
+        const std::vector<Gathered> more =
+            gather_at(sensors, gather, next, hash_words({options.seed, pass}), options, workers);
+        if (more.size() < sensors.size())
             return {};
-        std::vector<SurfacePoint> at;
-        std::vector<std::uint64_t> streams;
-        for (const Sensor& sensor :
-             sensors.subspan(begin, std::min(block, sensors.size() - begin))) {
-            at.push_back(sensor.at);
-            streams.push_back(hash_words({options.seed, begin + at.size()}));
-        }
-        const std::vector<Vec3> estimates = gather.irradiance(at, streams, gathers, workers, never);
-        lights.resize(begin + at.size());
-        workers.for_chunks(at.size(), 16, [&](std::size_t first, std::size_t end) {
-            for (std::size_t k = first; k < end; ++k) {
-                PointLight light = mean_of(std::span(estimates).subspan(k * gathers, gathers));
-                const Vec3 of_patches = variance_of_patches(
-                    std::span(met).subspan(k * rays_of_point, rays_of_point), solution, freedom);
-                light.standard_error = glm::sqrt(light.standard_error + of_patches);
-                lights[begin + k] = light;
-            }
-        });
+        const double share = double(next) / double(rounds + next);
+        found.resize(more.size());
+        for (std::size_t k = 0; k < more.size(); ++k)
+            found[k] = {glm::mix(found[k].irradiance, more[k].irradiance, share),
+                        (1 - share) * (1 - share) * found[k].variance +
+                            share * share * more[k].variance};
+        rounds += next;
+        next = 0;
+        const double excess = noise_of(found) / options.noise;
+        const unsigned most = std::max(1u, options.max_rays / (gathers * rays_of_round));
+        if (options.rays == 0 && excess > 1 && rounds < most)
+            next = static_cast<unsigned>(
+                std::clamp(std::ceil((excess * excess - 1) * rounds), 1.0,
+                           double(std::min(max_growth * rounds, most - rounds))));
     }
-    return lights;
+    LightAtPoints all{{}, noise_of(found), gather.rays()};
+    for (const Gathered& point : found) {
+        const Vec3 read = options.read_error * point.irradiance;
+        all.lights.push_back({point.irradiance, glm::sqrt(point.variance + read * read)});
+    }
+    return all;
 }
 
 } // namespace hemilux

@@ -1,6 +1,7 @@
 #pragma once
 // The light that arrives at points which a user names (sensors), and how large its error may be.
 
+#include "radiosity/light/cached_light/surface_light.h"
 #include "radiosity/light/final_gather/surface_points.h"
 
 #include <cstddef>
@@ -14,7 +15,6 @@ namespace hemilux {
 class Mesh;
 class Tracer;
 class Workers;
-struct Solution;
 
 /// A point of the local frame, moved onto the face that it lies on, with the patch there. `facet`
 /// and `patch` are none if it lies on no face that looks along the normal. On a face means no
@@ -28,25 +28,34 @@ struct Sensor {
 
 struct PointLight {
     Vec3 irradiance{0.0}; ///< [W/m2]
-    /// The error of the irradiance [W/m2]: by the spread of the gathers, and by the standard errors
-    /// of the patches that their rays meet. It does not hold the error of the division. It is NaN
-    /// where a patch's is.
+    /// The error of the irradiance [W/m2], by the spread of the gathers and by the error of the
+    /// light that they read.
     Vec3 standard_error{0.0};
 };
 
 struct PointLightOptions {
-    /// The number of cosine-distributed rays from each point, rounded up to 128; shadow rays are a
-    /// quarter of them. Four times as many halve the error of the gathers.
-    unsigned rays = 4096;
+    /// Rays are added until their noise, over all points and relative to their irradiance, is below
+    /// this [-].
+    double noise = .01;
+    /// The number of cosine-distributed rays from each point, rounded up to 128, in place of that;
+    /// 0: by `noise`. Shadow rays are a quarter of them. Four times as many halve the noise.
+    unsigned rays = 0;
+    unsigned max_rays = 1 << 20; ///< from a point
+    double read_error = 0;       ///< relative error of the light that is read [-]
     std::uint64_t seed = 1;
     /// Is asked before each block of points; true ends the work.
     std::function<bool()> give_up = {};
 };
 
-/// Finds the light at each sensor. The result is empty if it was given up.
-[[nodiscard]] std::vector<PointLight> light_at(std::span<const Sensor> sensors, const Mesh& mesh,
-                                               const Tracer& tracer, const Solution& solution,
-                                               const PointLightOptions& options,
-                                               const Workers& workers);
+struct LightAtPoints {
+    std::vector<PointLight> lights; ///< by sensor; empty if the work was given up
+    double noise = 0;               ///< of rays, as PointLightOptions::noise [-]
+    std::uint64_t rays = 0;
+};
+
+/// Finds the light at each sensor.
+[[nodiscard]] LightAtPoints light_at(std::span<const Sensor> sensors, const Mesh& mesh,
+                                     const Tracer& tracer, const SurfaceLight& light,
+                                     const PointLightOptions& options, const Workers& workers);
 
 } // namespace hemilux

@@ -56,16 +56,6 @@ Vec3 LinearLight::variance_left() const {
     return products / (count() - fitted);
 }
 
-Vec3 radiosity_at(const Mesh& mesh, const PatchLight& light, std::uint32_t patch,
-                  const Vec3& point) {
-    if (light.slope.empty())
-        return light.radiosity[patch];
-    const Patch& on = mesh.patches()[patch];
-    const Vec2 way = along_axes(Frame::from_normal(on.normal), point - on.centre);
-    return glm::max(light.radiosity[patch] + rise(light.slope[patch], way),
-                    mesh.material(on).emission);
-}
-
 /// Sums over the middles of edges: exact for triangles; of a parallelogram's mean square it is 3 /
 /// 2.
 double variance_of(const Patch& patch, const Slope& slope) {

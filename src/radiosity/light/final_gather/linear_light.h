@@ -41,20 +41,6 @@ class LinearLight {
     std::array<Slope, 2> slope_{};
 };
 
-/// A view of what patches send: by patch a mean [W/m2], and a slope, or no slopes at all.
-struct PatchLight {
-    std::span<const Vec3> radiosity;
-    std::span<const Slope> slope;
-
-    PatchLight(std::span<const Vec3> of, std::span<const Slope> slopes = {})
-        : radiosity(of), slope(slopes) {}
-    PatchLight(const Solution& solution) : PatchLight(solution.radiosity, solution.slope) {}
-};
-
-/// Returns B at a point of a patch [W/m2]; with a slope, what it reflects is not below 0.
-[[nodiscard]] Vec3 radiosity_at(const Mesh& mesh, const PatchLight& light, std::uint32_t patch,
-                                const Vec3& point);
-
 /// Returns the variance of a linear function over its patch, summed over channels. A quad counts as
 /// a parallelogram.
 [[nodiscard]] double variance_of(const Patch& patch, const Slope& slope);

@@ -1,6 +1,7 @@
 #include "radiosity/light/light_error/error_at_points.h"
 
 #include "parallel/workers.h"
+#include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/light/final_gather/final_gather.h"
 #include "radiosity/light/final_gather/light_within_patches.h"
 #include "radiosity/light/final_gather/linear_light.h"

@@ -21,6 +21,10 @@ std::vector<Colours> SceneTextures::means(const Mesh& mesh, std::span<const std:
     return means;
 }
 
+Colours SceneTextures::at(const Mesh& mesh, const Patch& patch, const Vec3& point) const {
+    return colours_at_point(mesh.scene(), patch.facet, mesh.shape_of(patch.facet), point);
+}
+
 const SceneTextures& textures_of(const Scene& scene) {
     static const SceneTextures no_textures;
     const auto* textures = dynamic_cast<const SceneTextures*>(scene.varying.get());

@@ -28,6 +28,8 @@ struct SceneTextures final : VaryingColours {
     [[nodiscard]] std::vector<Colours> means(const Mesh& mesh,
                                              std::span<const std::uint32_t> patches,
                                              unsigned threads) const override;
+    [[nodiscard]] Colours at(const Mesh& mesh, const Patch& patch,
+                             const Vec3& point) const override;
 };
 
 /// Returns the textures of a scene; none where it has no textures.

@@ -128,6 +128,13 @@ Vec3 Texture::at(const Vec2& place, Wraps wraps) const {
                  wrapped(static_cast<std::int64_t>(std::floor(place.y)), height_, wraps.y));
 }
 
+Vec3 Texture::texel_at(const Vec2& place, Wraps wraps) const {
+    constexpr double farthest = 1e15; // beyond it a texel has no number
+    const Vec2 in_texels = place * Vec2(width_, height_);
+    const bool has_number = std::abs(in_texels.x) < farthest && std::abs(in_texels.y) < farthest;
+    return has_number ? at(in_texels, wraps) : mean_;
+}
+
 /// Returns the integral of F dy along an edge.
 Vec3 Texture::edge_integral(const Vec2& from, const Vec2& to, Wraps wraps,
                             std::size_t start) const {

@@ -38,6 +38,9 @@ class Texture {
     /// (top) to 1. Where edges cross more than 16384 texels it is the picture's mean; polygons
     /// without area are sampled.
     [[nodiscard]] Vec3 mean_over(std::span<const Vec2> polygon, Wraps wraps) const;
+    /// Returns the colour of the texel at a place, as mean_over() has them. It is the mean of the
+    /// picture where the place is not finite.
+    [[nodiscard]] Vec3 texel_at(const Vec2& place, Wraps wraps) const;
     [[nodiscard]] double bytes() const;
 
   private:

@@ -13,13 +13,23 @@ std::array<std::size_t, 2> corners_of_half(bool second) {
     return second ? std::array<std::size_t, 2>{2, 3} : std::array<std::size_t, 2>{1, 2};
 }
 
+/// The texture coordinates of corner 0, and how they change along both edges of a half.
+struct TextureAxes {
+    Vec2 first, along, across;
+};
+TextureAxes texture_axes(const SceneTextures& textures, const TextureMap& map, std::uint32_t facet,
+                         bool second_half) {
+    const Texcoords& uv = textures.texcoords[map.set][facet];
+    const auto [b, c] = corners_of_half(second_half);
+    const Vec2 first{uv[0]};
+    return {first, Vec2{uv[b]} - first, Vec2{uv[c]} - first};
+}
+
 Vec3 mean_of(const SceneTextures& textures, const TextureMap& map, const Vec3& otherwise,
              std::uint32_t facet, bool second_half, std::span<const Vec2> places) {
     if (!map.texture)
         return otherwise;
-    const Texcoords& uv = textures.texcoords[map.set][facet];
-    const auto [b, c] = corners_of_half(second_half);
-    const Vec2 first{uv[0]}, along = Vec2{uv[b]} - first, across = Vec2{uv[c]} - first;
+    const auto [first, along, across] = texture_axes(textures, map, facet, second_half);
     std::vector<Vec2> on_texture;
     for (const Vec2& place : places)
         on_texture.push_back(map.place(first + place.x * along + place.y * across));
@@ -97,6 +107,33 @@ Colours mean_colours(const Scene& scene, std::uint32_t facet, const Polygon& who
     const Material& material = scene.materials[scene.facets[facet].material];
     return area > 0 ? Colours{sum.reflectance / area, sum.emission / area}
                     : Colours{material.reflectance, material.emission};
+}
+
+/// A quad's texture is linear on either half. The first is where the coordinate along its edge from
+/// corner 0 to corner 1 is not below 0.
+Colours colours_at_point(const Scene& scene, std::uint32_t facet, const Polygon& whole,
+                         const Vec3& point) {
+    const auto place_on_half = [&](bool second) {
+        const auto [b, c] = corners_of_half(second);
+        return place_on(whole.corner[0], whole.corner[b] - whole.corner[0],
+                        whole.corner[c] - whole.corner[0], point);
+    };
+    Vec2 place = place_on_half(false);
+    const bool second = !whole.is_triangle() && !(place.x >= 0);
+    if (second)
+        place = place_on_half(true);
+    const std::uint32_t number = scene.facets[facet].material;
+    const Material& material = scene.materials[number];
+    const SceneTextures& textures = textures_of(scene);
+    const auto colour = [&](const TextureMap& map, const Vec3& otherwise) {
+        if (!map.texture)
+            return otherwise;
+        const auto [first, along, across] = texture_axes(textures, map, facet, second);
+        return map.factor * map.texture->texel_at(
+                                map.place(first + place.x * along + place.y * across), map.wraps);
+    };
+    const auto& [reflectance, emission] = textures.of_material[number];
+    return {colour(reflectance, material.reflectance), colour(emission, material.emission)};
 }
 
 } // namespace hemilux

@@ -20,4 +20,8 @@ namespace hemilux {
 [[nodiscard]] Colours mean_colours(const Scene& scene, std::uint32_t facet, const Polygon& whole,
                                    const Polygon& part);
 
+/// Returns the colours of the texels at a point of a facet whose corners are `whole`.
+[[nodiscard]] Colours colours_at_point(const Scene& scene, std::uint32_t facet,
+                                       const Polygon& whole, const Vec3& point);
+
 } // namespace hemilux

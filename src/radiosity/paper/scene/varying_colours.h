@@ -11,6 +11,7 @@
 namespace hemilux {
 
 class Mesh;
+struct Patch;
 
 struct Colours {
     Vec3 reflectance; ///< [-]
@@ -28,6 +29,12 @@ class VaryingColours {
     /// find them; 0 means one per core.
     [[nodiscard]] virtual std::vector<Colours>
     means(const Mesh& mesh, std::span<const std::uint32_t> patches, unsigned threads) const = 0;
+    /// Returns the colours at a point (local frame) of a patch whose material varies.
+    [[nodiscard]] virtual Colours at(const Mesh& mesh, const Patch& patch,
+                                     const Vec3& point) const = 0;
 };
+
+/// Returns the colours at a point (local frame) of a patch: those of its material, or of textures.
+[[nodiscard]] Colours colours_at(const Mesh& mesh, const Patch& patch, const Vec3& point);
 
 } // namespace hemilux

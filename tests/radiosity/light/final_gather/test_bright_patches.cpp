@@ -5,6 +5,7 @@
 #include "support/solve.h"
 
 #include "support/catch.h"
+#include "radiosity/light/cached_light/patch_light.h"
 
 #include <cmath>
 

@@ -13,6 +13,7 @@
 #include "support/targets.h"
 
 #include "support/catch.h"
+#include "radiosity/light/cached_light/patch_light.h"
 
 #include <cmath>
 #include <limits>

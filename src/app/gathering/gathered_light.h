@@ -1,0 +1,36 @@
+#pragma once
+// The light of outputs for which it is gathered: pictures and points. It is learned until its error
+// is as asked for (light_cache.h), then gathered.
+
+#include "app/settings/settings.h"
+#include "io/pictures/camera.h"
+#include "io/results/points.h"
+#include "io/results/statistics.h"
+#include "radiosity/light/cached_light/light_cache.h"
+#include "radiosity/light/final_gather/light_at_points.h"
+#include "radiosity/paper/solving/solver.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+struct GatheredLight {
+    std::unique_ptr<LightCache> cache; ///< empty: nothing is gathered
+    std::vector<Sensor> sensors;       ///< by point of --points
+    LightAtPoints points;
+};
+
+/// Returns whether any output shows gathered light.
+[[nodiscard]] bool gathers(const SolveSettings& settings);
+
+/// Learns the light, and gathers that of points. `camera` is that of pictures. Everything that is
+/// referred to must outlive the result. Enters the error into the statistics where only gathered
+/// light is given out.
+[[nodiscard]] GatheredLight gather_light(const SolveSettings& settings, const Mesh& mesh,
+                                         const Tracer& tracer, const Solution& solution,
+                                         std::span<const NamedPoint> points, const Camera& camera,
+                                         Monitor& monitor, Statistics& statistics);
+
+} // namespace hemilux

@@ -1,0 +1,21 @@
+#include "radiosity/light/cached_light/surface_light.h"
+
+#include "geometry/numeric.h"
+#include "radiosity/light/cached_light/irradiance_cells.h"
+#include "radiosity/paper/scene/mesh.h"
+
+#include <cmath>
+
+namespace hemilux {
+
+SurfaceLight::Irradiance SurfaceLight::irradiance(std::uint32_t patch, const Vec3& point) const {
+    const Material& mean = mesh_.material(patch);
+    const Vec3 reflected = radiosity_at(mesh_, patches_, patch, point) - mean.emission;
+    const Vec3 of_patch = ratio_or_zero(reflected, mean.reflectance);
+    if (!cells_)
+        return {of_patch, of_patch, std::sqrt(mesh_.patches()[patch].area)};
+    const IrradianceCells::Known known = cells_->at(patch, point);
+    return {of_patch + known.residual, of_patch, known.side};
+}
+
+} // namespace hemilux
