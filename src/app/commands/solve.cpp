@@ -272,9 +272,8 @@ GatheredLight gather(const Problem& problem, Run& done, const Solution& solution
                        settings.options.threads};
     if (has_pictures(settings) && !done.camera)
         done.camera = shown_camera_of(settings.view, lit, settings.verbosity);
-    return gather_light(settings, problem.mesh(), problem.tracer(), solution,
-                        problem.loaded.points, done.camera.value_or(Camera()), problem.monitor,
-                        statistics);
+    return gather_light(settings, lit, solution, problem.loaded.points,
+                        done.camera.value_or(Camera()), problem.monitor, statistics);
 }
 
 /// Writes the outputs; returns the exit code.

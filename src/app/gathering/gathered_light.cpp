@@ -1,15 +1,19 @@
 #include "app/gathering/gathered_light.h"
 
 #include "app/division/whole_error.h"
-#include "app/rendering/view.h"
 #include "app/terminal/stopwatch.h"
+#include "io/files/error.h"
+#include "io/rendering/picture_error.h"
 #include "io/rendering/picture_parts.h"
+#include "io/rendering/render.h"
 #include "parallel/workers.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -28,76 +32,158 @@ std::vector<TargetPart> parts_of(std::span<const Sensor> sensors) {
     return parts;
 }
 
-/// Enters the errors of what is read and of noise.
-void enter(Statistics& statistics, const ReadError& read, double noise) {
-    statistics.estimated_error = std::hypot(read.error, noise);
-    statistics.error_bound = std::hypot(read.bound, noise);
-    statistics.estimated_error_uncertainty =
-        statistics.estimated_error > 0
-            ? read.error * read.uncertainty / statistics.estimated_error
-            : read.uncertainty;
-    statistics.estimated_error_of = ErrorOf::gathered;
+/// The errors of what is given out.
+struct Errors {
+    ReadError read;               ///< of the light that gathers read
+    double noise = 0;             ///< of their own, relative [-]
+    double noise_uncertainty = 0; ///< one sigma
+
+    [[nodiscard]] double whole() const { return std::hypot(read.error, noise); }
+    [[nodiscard]] double bound() const { return std::hypot(read.bound, noise + noise_uncertainty); }
+    [[nodiscard]] double uncertainty() const {
+        return whole() > 0
+                   ? std::hypot(read.error * read.uncertainty, noise * noise_uncertainty) / whole()
+                   : std::hypot(read.uncertainty, noise_uncertainty);
+    }
+};
+
+class Gathering {
+  public:
+    Gathering(const SolveSettings& settings, const LitScene& scene, const Solution& solution,
+              Monitor& monitor, Statistics& statistics)
+        : settings_(settings), scene_(scene), solution_(solution), monitor_(monitor),
+          statistics_(statistics), workers_(settings.options.threads),
+          time_(monitor.interrupted.own().wished), error_(whole_error(settings)) {
+        light_.cache = std::make_unique<LightCache>(scene.mesh, scene.tracer, solution);
+    }
+
+    void find_points(std::span<const NamedPoint> points);
+    void find_picture(const Camera& camera);
+    /// Returns what was found, and enters the errors.
+    [[nodiscard]] GatheredLight finish();
+
+  private:
+    [[nodiscard]] ReadError learn(std::span<const TargetPart> target, std::uint64_t seed);
+    void add(const Errors& errors) {
+        if (!errors_ || errors.bound() > errors_->bound())
+            errors_ = errors;
+    }
+    [[nodiscard]] std::uint64_t seed_of(std::uint64_t use) const {
+        return hash_words({settings_.options.seed, use});
+    }
+
+    const SolveSettings& settings_;
+    LitScene scene_;
+    const Solution& solution_;
+    Monitor& monitor_;
+    Statistics& statistics_;
+    Workers workers_;
+    PictureTime time_;
+    double error_;
+    GatheredLight light_;
+    std::optional<Errors> errors_; ///< the larger ones of points and of the picture
+};
+
+ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t seed) {
+    LearnOptions options{.seed = seed, .error = share_of_read * error_};
+    if (settings_.stop.rays)
+        options.max_rays = *settings_.stop.rays;
+    const Stopwatch watch;
+    const ReadError found = light_.cache->learn(target, options, workers_, monitor_.interrupted);
+    statistics_.rays_learn += found.rays;
+    statistics_.seconds_learn += watch.seconds();
+    return found;
+}
+
+void Gathering::find_points(std::span<const NamedPoint> points) {
+    for (const NamedPoint& point : points)
+        light_.sensors.push_back(sensor_at(scene_.mesh, scene_.tracer,
+                                           scene_.mesh.frame().to_local(point.position),
+                                           point.normal));
+    Errors errors{learn(parts_of(light_.sensors), seed_of(3))};
+    const Stopwatch watch;
+    PointLightOptions options{.noise = share_of_noise * error_,
+                              .read_error =
+                                  std::isfinite(errors.read.error) ? errors.read.error : 0,
+                              .seed = seed_of(2),
+                              .give_up = [this] { return time_.is_over(); }};
+    if (settings_.gather)
+        options.rays = PointSettings::rays_per_gather_ray * *settings_.gather;
+    light_.points = light_at(light_.sensors, scene_.mesh, scene_.tracer, light_.cache->light(),
+                             options, workers_);
+    errors.noise = light_.points.noise;
+    statistics_.rays_gather += light_.points.rays;
+    statistics_.seconds_learn += watch.seconds();
+    add(errors);
+}
+
+/// Where the picture's own error is too large, it is rendered again with four times as many rays.
+void Gathering::find_picture(const Camera& camera) {
+    constexpr unsigned max_gather = 256;
+    const auto [width, height] = settings_.view.size;
+    const CameraRays rays(camera, scene_.mesh, double(width) / height);
+    Errors errors{
+        learn(picture_parts(scene_.mesh, scene_.tracer, rays, width, height, seed_of(6), workers_),
+              seed_of(5))};
+    RenderOptions options = picture_options(settings_.view.size, settings_.options.threads, time_);
+    options.slope = solution_.slope;
+    options.cells = &light_.cache->cells();
+    options.gather = settings_.rays_of_gather();
+    for (std::uint64_t attempt = 0;; ++attempt, options.gather *= 4) {
+        const Stopwatch watch;
+        light_.picture = render_view(scene_, camera, options);
+        light_.seconds_picture += watch.seconds();
+        const Stopwatch judging;
+        const PictureError own =
+            picture_error(scene_.mesh, scene_.tracer, light_.cache->light(), rays, *light_.picture,
+                          hash_words({seed_of(7), attempt}), workers_);
+        statistics_.rays_learn += own.rays;
+        statistics_.seconds_learn += judging.seconds();
+        errors.noise = own.error;
+        errors.noise_uncertainty = own.uncertainty;
+        if (settings_.gather || errors.whole() <= error_ || 4 * options.gather > max_gather ||
+            errors.read.bound > error_ || monitor_.interrupted)
+            break;
+    }
+    add(errors);
+}
+
+GatheredLight Gathering::finish() {
+    if (errors_ && gives_gathered_light(settings_)) {
+        statistics_.estimated_error = errors_->whole();
+        statistics_.error_bound = errors_->bound();
+        statistics_.estimated_error_uncertainty = errors_->uncertainty();
+        statistics_.estimated_error_of = ErrorOf::gathered;
+    }
+    return std::move(light_);
+}
+
+bool has_gathered_picture(const SolveSettings& settings) {
+    return settings.gather_pictures &&
+           std::ranges::any_of(settings.outputs, is_picture, &Output::kind);
 }
 
 } // namespace
 
 bool gathers(const SolveSettings& settings) {
-    return !settings.points.output.empty() ||
-           (settings.gather_pictures &&
-            std::ranges::any_of(settings.outputs, is_picture, &Output::kind));
+    return !settings.points.output.empty() || has_gathered_picture(settings);
 }
 
-GatheredLight gather_light(const SolveSettings& settings, const Mesh& mesh, const Tracer& tracer,
+GatheredLight gather_light(const SolveSettings& settings, const LitScene& scene,
                            const Solution& solution, std::span<const NamedPoint> points,
                            const Camera& camera, Monitor& monitor, Statistics& statistics) {
-    GatheredLight light;
     if (!gathers(settings))
-        return light;
-    const Stopwatch watch;
-    const Workers workers(settings.options.threads);
-    light.cache = std::make_unique<LightCache>(mesh, tracer, solution);
-    const double error = whole_error(settings);
-    LearnOptions options{.error = share_of_read * error};
-    if (settings.stop.rays)
-        options.max_rays = *settings.stop.rays;
-    ReadError read;
-    double noise = 0;
-    if (!points.empty()) {
-        for (const NamedPoint& point : points)
-            light.sensors.push_back(
-                sensor_at(mesh, tracer, mesh.frame().to_local(point.position), point.normal));
-        options.seed = hash_words({settings.options.seed, 3});
-        read = light.cache->learn(parts_of(light.sensors), options, workers, monitor.interrupted);
-        const PictureTime time(monitor.interrupted.own().wished);
-        PointLightOptions of_points{.noise = share_of_noise * error,
-                                    .read_error = std::isfinite(read.error) ? read.error : 0,
-                                    .seed = hash_words({settings.options.seed, 2}),
-                                    .give_up = [&time] { return time.is_over(); }};
-        if (settings.gather)
-            of_points.rays = PointSettings::rays_per_gather_ray * *settings.gather;
-        light.points =
-            light_at(light.sensors, mesh, tracer, light.cache->light(), of_points, workers);
-        noise = light.points.noise;
-        statistics.rays_gather += light.points.rays;
-        statistics.rays_learn += read.rays;
+        return {};
+    Gathering gathering(settings, scene, solution, monitor, statistics);
+    if (!points.empty())
+        gathering.find_points(points);
+    try {
+        if (has_gathered_picture(settings))
+            gathering.find_picture(camera);
+    } catch (const Interrupted&) {
+        return gathering.finish();
     }
-    if (settings.gather_pictures &&
-        std::ranges::any_of(settings.outputs, is_picture, &Output::kind)) {
-        const auto [width, height] = settings.view.size;
-        const CameraRays rays(camera, mesh, double(width) / height);
-        options.seed = hash_words({settings.options.seed, 5});
-        const ReadError of_picture =
-            light.cache->learn(picture_parts(mesh, tracer, rays, width, height,
-                                             hash_words({settings.options.seed, 6}), workers),
-                               options, workers, monitor.interrupted);
-        if (points.empty() || of_picture.bound > read.bound)
-            read = of_picture;
-        statistics.rays_learn += of_picture.rays;
-    }
-    statistics.seconds_learn = watch.seconds();
-    if (gives_gathered_light(settings))
-        enter(statistics, read, noise);
-    return light;
+    return gathering.finish();
 }
 
 } // namespace hemilux

@@ -2,8 +2,10 @@
 // The light of outputs for which it is gathered: pictures and points. It is learned until its error
 // is as asked for (light_cache.h), then gathered.
 
+#include "app/rendering/view.h"
 #include "app/settings/settings.h"
 #include "io/pictures/camera.h"
+#include "io/pictures/image.h"
 #include "io/results/points.h"
 #include "io/results/statistics.h"
 #include "radiosity/light/cached_light/light_cache.h"
@@ -11,6 +13,7 @@
 #include "radiosity/paper/solving/solver.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +23,8 @@ struct GatheredLight {
     std::unique_ptr<LightCache> cache; ///< empty: nothing is gathered
     std::vector<Sensor> sensors;       ///< by point of --points
     LightAtPoints points;
+    std::optional<Image> picture; ///< empty: none was asked for, or a signal ended it
+    double seconds_picture = 0;
 };
 
 /// Returns whether any output shows gathered light.
@@ -28,8 +33,8 @@ struct GatheredLight {
 /// Learns the light, and gathers that of points. `camera` is that of pictures. Everything that is
 /// referred to must outlive the result. Enters the error into the statistics where only gathered
 /// light is given out.
-[[nodiscard]] GatheredLight gather_light(const SolveSettings& settings, const Mesh& mesh,
-                                         const Tracer& tracer, const Solution& solution,
+[[nodiscard]] GatheredLight gather_light(const SolveSettings& settings, const LitScene& scene,
+                                         const Solution& solution,
                                          std::span<const NamedPoint> points, const Camera& camera,
                                          Monitor& monitor, Statistics& statistics);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace hemilux {
 
@@ -20,10 +21,11 @@ void check_distances(const std::string& path, std::span<const NamedPoint> points
 }
 
 void write_points(const std::string& path, const Results& results) {
-    const auto& [cache, sensors, found] = results.gathered;
-    if (found.lights.size() < results.points.size())
+    const auto& [sensors, lights] =
+        std::tie(results.gathered.sensors, results.gathered.points.lights);
+    if (lights.size() < results.points.size())
         throw Interrupted();
-    write_points_table(path, results.mesh, results.points, sensors, found.lights);
+    write_points_table(path, results.mesh, results.points, sensors, lights);
 }
 
 } // namespace hemilux

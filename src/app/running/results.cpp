@@ -49,14 +49,10 @@ class SharedClasses {
 /// The picture of the light. It is rendered when the first picture is asked for, and once only.
 class Picture {
   public:
-    /// `gather` is the number of rays at a point; with 0 the picture interpolates.
-    Picture(const ViewSettings& view, unsigned gather, const Results& results,
-            SharedClasses& classes)
-        : view_(view), gather_(gather), results_(results), classes_(classes),
+    /// A picture that does not gather interpolates.
+    Picture(const ViewSettings& view, bool gathers, const Results& results, SharedClasses& classes)
+        : view_(view), gathers_(gathers), results_(results), classes_(classes),
           time_(results.monitor.interrupted.own().wished) {}
-
-    /// Returns the time of rendering [s], where the light is gathered.
-    [[nodiscard]] double seconds_gather() const { return seconds_gather_; }
 
     void write(const Output& output, const Provenance& from, Verbosity verbosity) {
         if (!image_)
@@ -74,26 +70,28 @@ class Picture {
     [[nodiscard]] Image render(Verbosity verbosity) {
         const LitScene scene = results_.lit();
         camera_ = shown_camera_of(view_, scene, verbosity);
-        const Stopwatch watch;
-        RenderOptions options = picture_options(view_.size, scene.threads, time_);
-        options.gather = gather_;
-        options.classes = gather_ > 0 ? nullptr : &classes_.get();
-        options.slope = results_.solution.slope;
-        if (results_.gathered.cache)
-            options.cells = &results_.gathered.cache->cells();
-        Image image = render_view(scene, camera_, options);
-        if (gather_ > 0)
-            seconds_gather_ = watch.seconds();
+        Image image = gathers_ ? gathered() : interpolated(scene);
         choose_exposure(view_, image, scene, camera_);
         return image;
     }
 
+    [[nodiscard]] Image gathered() const {
+        if (!results_.gathered.picture)
+            throw Interrupted();
+        return *results_.gathered.picture;
+    }
+    [[nodiscard]] Image interpolated(const LitScene& scene) {
+        RenderOptions options = picture_options(view_.size, scene.threads, time_);
+        options.classes = &classes_.get();
+        options.slope = results_.solution.slope;
+        return render_view(scene, camera_, options);
+    }
+
     ViewSettings view_;
-    unsigned gather_;
+    bool gathers_;
     const Results& results_;
     SharedClasses& classes_;
     PictureTime time_;
-    double seconds_gather_ = 0;
     std::optional<Image> image_;
     Camera camera_; ///< of the image
 };
@@ -142,10 +140,11 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path, c
 
 void write_mesh(const SolveSettings& settings, const Output& output, const Results& results,
                 const CornerClasses& classes, WriteReport& report) {
-    VertexLight light{settings.bake == Bake::indirect
-                          ? smooth(results.mesh, classes, indirect_light(settings.rays_of_gather(), results))
-                          : baked_light(results.mesh, classes, results.solution, settings.bake),
-                      settings.bake};
+    VertexLight light{
+        settings.bake == Bake::indirect
+            ? smooth(results.mesh, classes, indirect_light(settings.rays_of_gather(), results))
+            : baked_light(results.mesh, classes, results.solution, settings.bake),
+        settings.bake};
     light.display = display_of(settings.view, results.mesh, classes, light.of_class);
     if (output.kind == OutputKind::ply)
         return write_ply(output.path, results.mesh, classes, light, settings.ply_colours);
@@ -179,8 +178,8 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
 }
 
 void write_report(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, options, statistics, steps, points, gathered, warnings, monitor] =
-        results;
+    const auto& [mesh, tracer, solution, options, statistics, steps, points, gathered, warnings,
+                 monitor] = results;
     ReportContent content{mesh,
                           solution,
                           statistics,
@@ -220,7 +219,7 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
     statistics.settings = settings.given;
     const Stopwatch writing;
     SharedClasses classes(results.mesh);
-    Picture picture(settings.view, settings.gather_pictures ? settings.rays_of_gather() : 0, results,
+    Picture picture(settings.view, settings.gather_pictures && results.gathered.cache, results,
                     classes);
     WriteReport report;
     if (!settings.points.output.empty())
@@ -261,9 +260,9 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
     // What is done side by side shares the time.
     const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
     const double share = sum > 0 ? (writing.seconds() - seconds_points - seconds_map) / sum : 0;
-    statistics.seconds_gather = seconds_points + share * picture.seconds_gather();
-    statistics.seconds_picture = seconds_map + share * (seconds[0] - picture.seconds_gather());
-    statistics.seconds_write = share * (sum - seconds[0]);
+    statistics.seconds_gather = results.gathered.seconds_picture;
+    statistics.seconds_picture = seconds_map + share * seconds[0];
+    statistics.seconds_write = seconds_points + share * (sum - seconds[0]);
     statistics.bytes_peak = peak_memory_bytes();
     statistics.seconds_total = started.seconds();
     for (std::size_t k = 0; k < settings.outputs.size(); ++k)

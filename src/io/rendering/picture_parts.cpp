@@ -43,9 +43,10 @@ TargetPart part_around(const Mesh& mesh, const Tracer& tracer, const CameraRays&
         return part;
     for (int k = 0; k < places; ++k) {
         const double dx = rng.uniform() - .5, dy = rng.uniform() - .5;
-        const auto shown = k == 0 ? first
-                                  : shown_at(mesh, tracer, camera, middle.x + 2 * reach * dx * pixel.x,
-                                             middle.y + 2 * reach * dy * pixel.y);
+        const auto shown = k == 0
+                               ? first
+                               : shown_at(mesh, tracer, camera, middle.x + 2 * reach * dx * pixel.x,
+                                          middle.y + 2 * reach * dy * pixel.y);
         if (!shown || shown->at.facet != first->at.facet || shown->at.normal != first->at.normal)
             continue;
         part.points.push_back(shown->at);

@@ -15,8 +15,7 @@ class Workers;
 /// near a random one that show the same side of a facet. Where a pixel shows nothing that reflects
 /// there is no part.
 [[nodiscard]] std::vector<TargetPart> picture_parts(const Mesh& mesh, const Tracer& tracer,
-                                                    const CameraRays& camera, int width,
-                                                    int height, std::uint64_t seed,
-                                                    const Workers& workers);
+                                                    const CameraRays& camera, int width, int height,
+                                                    std::uint64_t seed, const Workers& workers);
 
 } // namespace hemilux

@@ -25,7 +25,7 @@ constexpr std::size_t parts_of_round = 256;
 constexpr std::size_t min_of_group = 4;
 
 /// The number of walks that are taken together.
-constexpr std::size_t walks_at_a_time = 2048;
+constexpr std::size_t walks_at_a_time = 8192;
 
 /// One in twenty errors is larger than its mean and 1.6 sigma. The first of several errors that are
 /// small enough errs low, so it is some more.

@@ -50,7 +50,11 @@ void Walks::trace(std::uint32_t begin, std::uint32_t end, Work& work,
         SurfacePoint at = vertex.at;
         if (by_point)
             at.patch = none;
-        emitters_.weigh(at, work.weighed);
+        const bool is_as_before = v > begin && at.patch == none &&
+                                  work.vertices[v - 1].at.position == at.position &&
+                                  work.vertices[v - 1].at.normal == at.normal;
+        if (!is_as_before)
+            emitters_.weigh(at, work.weighed);
         const bool by_shadow_ray = work.weighed.pays();
         Rng rng(vertex.seed);
         if (by_shadow_ray)

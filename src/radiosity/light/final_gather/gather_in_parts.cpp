@@ -3,11 +3,13 @@
 #include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -63,12 +65,13 @@ std::vector<EmitterLight> GatherInParts::direct(std::span<const SurfacePoint> po
     return found;
 }
 
-/// Adds what each ray meets. A ray that was aimed counts only where it meets its patch. Then, and
-/// where a random ray meets the same patch, it counts by the densities of both (balance heuristic:
-/// Veach and Guibas 1995).
+/// Adds what each ray meets; what is near goes on as a path. A ray that was aimed counts only where
+/// it meets its patch. Then, and where a random ray meets the same patch, it counts by the
+/// densities of both (balance heuristic: Veach and Guibas 1995).
 void GatherInParts::read_patches(std::span<const SurfacePoint> points, const Rays& rays,
                                  std::span<IndirectLight> found) const {
     std::array<FacetHit, rays_at_a_time> hits;
+    PathRays near;
     for (std::size_t begin = 0; begin < rays.rays.size(); begin += hits.size()) {
         const std::size_t n = std::min(hits.size(), rays.rays.size() - begin);
         const auto some = std::span(rays.rays).subspan(begin, n);
@@ -93,17 +96,32 @@ void GatherInParts::read_patches(std::span<const SurfacePoint> points, const Ray
             if (patch == none)
                 continue;
             const Vec3 point = ray.origin + hit.t * ray.direction;
-            const Colours here = colours_at(mesh_, mesh_.patches()[patch], point);
-            Vec3 sent = here.reflectance * light_.irradiance(patch, point).value;
-            if (!emitters_.contains(patch))
-                sent += here.emission;
-            light.irradiance += sent / rays_there;
+            const Patch& on = mesh_.patches()[patch];
+            const Colours here = colours_at(mesh_, on, point);
+            const SurfaceLight::Irradiance arriving = light_.irradiance(patch, point);
+            Vec3 sent = emitters_.contains(patch) ? Vec3(0.0) : here.emission;
+            if (is_near(hit.t, arriving.side)) {
+                light.irradiance += sent / rays_there;
+                paths_.begin_at({point, on.normal, on.facet, patch},
+                                {.seed = hash_words({rays.seed, begin + k}),
+                                 .place = place,
+                                 .share = here.reflectance / rays_there},
+                                near);
+                sent += here.reflectance * arriving.value;
+            } else {
+                sent += here.reflectance * arriving.value;
+                light.irradiance += sent / rays_there;
+            }
             const double square = mean_of_channels(sent * sent);
             light.squares += square;
             if (bright_.contains(patch))
                 light.bright_squares += square;
         }
     }
+    std::vector<Vec3> reflected_near(points.size(), Vec3(0.0));
+    paths_.trace(std::move(near), reflected_near);
+    for (std::size_t k = 0; k < points.size(); ++k)
+        found[k].irradiance += reflected_near[k];
 }
 
 std::vector<IndirectLight> GatherInParts::indirect(std::span<const SurfacePoint> points,
@@ -122,6 +140,7 @@ std::vector<IndirectLight> GatherInParts::indirect(std::span<const SurfacePoint>
             read_patches(points, rays, found);
             rays.rays.clear();
             rays.samples.clear();
+            rays.seed = hash_words({seed, first});
         }
         if (!alike) {
             aims = k;

@@ -7,6 +7,7 @@
 #include "radiosity/engine/emitters/reached_emitters.h"
 #include "radiosity/light/cached_light/surface_light.h"
 #include "radiosity/light/final_gather/bright_patches.h"
+#include "radiosity/light/final_gather/gather_paths.h"
 #include "radiosity/light/final_gather/surface_points.h"
 
 #include <cstdint>
@@ -46,16 +47,16 @@ class GatherInParts {
     /// `light` is what surfaces send. All that is referred to must outlive this object.
     GatherInParts(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light)
         : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh),
-          bright_(mesh, light.of_patches().radiosity, emitters_) {}
+          bright_(mesh, light.of_patches().radiosity, emitters_), paths_(mesh, tracer, light) {}
 
     /// Returns the light of emitters at each point by its own samples, on the calling thread, with
     /// a shadow ray for each. If shadows are left out, no ray is traced, and nothing arrives.
     [[nodiscard]] std::vector<EmitterLight> direct(std::span<const SurfacePoint> points,
                                                    std::span<const GatherSamples> samples,
                                                    Shadows shadows) const;
-    /// Returns the other light in the same way, by a cosine-distributed ray for each sample, which
-    /// reads the patch that it meets, however near. Half of the samples may be rays to bright
-    /// patches instead (bright_patches.h).
+    /// Returns the other light in the same way, by a cosine-distributed ray for each sample. It
+    /// reads the light that it meets, or goes on where that is too near. Half of the samples may be
+    /// rays to bright patches instead (bright_patches.h).
     [[nodiscard]] std::vector<IndirectLight> indirect(std::span<const SurfacePoint> points,
                                                       std::span<const GatherSamples> samples) const;
 
@@ -69,7 +70,8 @@ class GatherInParts {
         };
         std::vector<Ray> rays;
         std::vector<Sample> samples;
-        unsigned aimed = 0; ///< rays of each point
+        unsigned aimed = 0;     ///< rays of each point
+        std::uint64_t seed = 0; ///< of the paths that go on
         BrightPatches::Aim aim;
     };
     void read_patches(std::span<const SurfacePoint> points, const Rays& rays,
@@ -80,6 +82,7 @@ class GatherInParts {
     SurfaceLight light_;
     ReachedEmitters emitters_;
     BrightPatches bright_;
+    GatherPaths paths_;
 };
 
 } // namespace hemilux

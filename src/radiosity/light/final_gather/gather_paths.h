@@ -26,12 +26,12 @@ class Mesh;
 struct PathRays {
     /// This is what a random ray carries.
     struct State {
-        std::uint64_t seed;  ///< of what follows from it
-        std::uint32_t place; ///< of the estimate
-        Vec3 share;          ///< of what it meets, that counts in the estimate
-        bool sees_emission;  ///< emitters are left to it
-        bool in_gather;      ///< nothing is to be found before its path has left the gather
-        bool ends = false;   ///< its path does not go on
+        std::uint64_t seed;        ///< of what follows from it
+        std::uint32_t place;       ///< of the estimate
+        Vec3 share;                ///< of what it meets, that counts in the estimate
+        bool sees_emission = true; ///< emitters are left to it
+        bool in_gather = false;    ///< nothing is to be found before its path has left the gather
+        bool ends = false;         ///< its path does not go on
     };
     std::vector<Ray> random;
     std::vector<State> states; ///< of each ray at random
@@ -57,6 +57,13 @@ class GatherPaths {
     void find(Find what) { find_ = what; }
     [[nodiscard]] Find finds() const { return find_; }
     [[nodiscard]] const ReachedEmitters& emitters() const { return emitters_; }
+
+    /// Adds rays for the light that arrives at a point, where a path begins; `state.share` of it
+    /// counts.
+    void begin_at(const SurfacePoint& at, const PathRays::State& state, PathRays& rays) const {
+        emitters_.weigh(at, rays.weighed);
+        add_rays(at, state, rays);
+    }
 
     struct Traced {
         std::vector<std::uint32_t> receivers; ///< of each ray at random, see receivers.h

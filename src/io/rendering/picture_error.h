@@ -1,0 +1,30 @@
+#pragma once
+// How far a gathered picture is from the light that its rays read: by noise, and by what lies
+// between the points at which it was gathered.
+
+#include "io/pictures/camera.h"
+#include "io/pictures/image.h"
+#include "radiosity/light/cached_light/surface_light.h"
+
+#include <cstdint>
+
+namespace hemilux {
+
+class Workers;
+
+/// An error relative to the reflected light that the picture shows: RMS over pixels and channels.
+struct PictureError {
+    double error = 0;
+    double uncertainty = 0; ///< one sigma of `error`
+    std::uint64_t rays = 0;
+};
+
+/// Gathers the light at random pixels once more, twice independently, with many rays. The mean
+/// product of both differences from the picture is its squared error, free of their noise. Pixels
+/// on edges are left out.
+[[nodiscard]] PictureError picture_error(const Mesh& mesh, const Tracer& tracer,
+                                         const SurfaceLight& light, const CameraRays& camera,
+                                         const Image& picture, std::uint64_t seed,
+                                         const Workers& workers);
+
+} // namespace hemilux
