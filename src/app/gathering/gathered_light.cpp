@@ -112,6 +112,7 @@ void Gathering::find_points(std::span<const NamedPoint> points) {
     light_.points = light_at(light_.sensors, scene_.mesh, scene_.tracer, light_.cache->light(),
                              options, workers_);
     errors.noise = light_.points.noise;
+    errors.noise_uncertainty = light_.points.noise_uncertainty;
     statistics_.rays_gather += light_.points.rays;
     statistics_.seconds_learn += watch.seconds();
     add(errors);

@@ -39,7 +39,6 @@ struct Group {
     Vec3 light{0.0};    ///< as gathers find it, sum [W/m2]
     Vec3 residual{0.0}; ///< sum [W/m2]
     double squares = 0; ///< of residuals, sum over channels
-    double squares_of_light = 0;
 
     void add(const WalkLight& walk, const Vec3& reflectance) {
         const Vec3 found =
@@ -48,7 +47,6 @@ struct Group {
         light += found;
         residual += lacks;
         squares += glm::dot(lacks, lacks);
-        squares_of_light += glm::dot(found, found);
     }
 };
 
@@ -70,7 +68,7 @@ struct LightCache::Round {
 /// Adds the products of both groups over the parts. Their spread is by the noise of the groups, or
 /// as parts differ, whichever is more.
 ReadError LightCache::Round::error(std::span<const TargetPart> target, double n) const {
-    double products = 0, squares = 0, light = 0, by_noise = 0, of_ray = 0;
+    double products = 0, squares = 0, light = 0, by_noise = 0, weight = 0;
     for (std::size_t k = 0; k < target.size(); ++k) {
         const auto& [a, b] = groups[k];
         const double w = target[k].weight;
@@ -81,10 +79,7 @@ ReadError LightCache::Round::error(std::span<const TargetPart> target, double n)
         const double va = variance_of_mean(a.residual, a.squares, n),
                      vb = variance_of_mean(b.residual, b.squares, n);
         by_noise += w * w * va * vb + std::max(product, 0.0) * w * (va + vb);
-        of_ray += w * n *
-                  (variance_of_mean(a.light, a.squares_of_light, n) +
-                   variance_of_mean(b.light, b.squares_of_light, n)) /
-                  2;
+        weight += w;
     }
     if (!(light > 0))
         return {};
@@ -97,7 +92,7 @@ ReadError LightCache::Round::error(std::span<const TargetPart> target, double n)
     return {.error = std::sqrt(square),
             .bound = bound,
             .uncertainty = (bound - std::sqrt(square)) / sigmas_of_bound,
-            .variance_of_ray = of_ray / light};
+            .level = std::sqrt(light / (3 * weight))};
 }
 
 LightCache::Round LightCache::take_walks(std::span<const TargetPart> target, std::size_t of_group,

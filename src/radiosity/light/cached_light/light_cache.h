@@ -46,9 +46,7 @@ struct ReadError {
     double bound = std::numeric_limits<double>::quiet_NaN();
     /// One sigma of `error`.
     double uncertainty = std::numeric_limits<double>::quiet_NaN();
-    /// The variance of what one ray of a gather finds, relative to the light squared, as a mean
-    /// over the target.
-    double variance_of_ray = std::numeric_limits<double>::quiet_NaN();
+    double level = 0; ///< RMS of the light of a channel over the target [W/m2]
     std::uint64_t walks = 0, rays = 0;
 };
 

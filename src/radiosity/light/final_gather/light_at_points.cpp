@@ -120,11 +120,21 @@ LightAtPoints light_at(std::span<const Sensor> sensors, const Mesh& mesh, const 
                 std::clamp(std::ceil((excess * excess - 1) * rounds), 1.0,
                            double(std::min(max_growth * rounds, most - rounds))));
     }
-    LightAtPoints all{{}, noise_of(found), gather.rays()};
+    LightAtPoints all{{}, noise_of(found), 0, gather.rays()};
+    double sum = 0, squares = 0;
     for (const Gathered& point : found) {
-        const Vec3 read = options.read_error * point.irradiance;
+        const Vec3 read(options.read_error);
         all.lights.push_back({point.irradiance, glm::sqrt(point.variance + read * read)});
+        const double variance = point.variance.x + point.variance.y + point.variance.z;
+        sum += variance;
+        squares += variance * variance;
     }
+    // The squared error is a sum over so many points as have about the same noise. It scatters
+    // itself, and so does the variance that a few gathers give.
+    constexpr double freedom = gathers - 1;
+    if (sum > 0)
+        all.noise_uncertainty =
+            all.noise * std::sqrt(.5 * squares / (sum * sum) * (1 + 1 / freedom));
     return all;
 }
 

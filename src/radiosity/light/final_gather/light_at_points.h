@@ -41,7 +41,7 @@ struct PointLightOptions {
     /// 0: by `noise`. Shadow rays are a quarter of them. Four times as many halve the noise.
     unsigned rays = 0;
     unsigned max_rays = 1 << 20; ///< from a point
-    double read_error = 0;       ///< relative error of the light that is read [-]
+    double read_error = 0;       ///< error by the light that is read [W/m2]
     std::uint64_t seed = 1;
     /// Is asked before each block of points; true ends the work.
     std::function<bool()> give_up = {};
@@ -50,6 +50,7 @@ struct PointLightOptions {
 struct LightAtPoints {
     std::vector<PointLight> lights; ///< by sensor; empty if the work was given up
     double noise = 0;               ///< of rays, as PointLightOptions::noise [-]
+    double noise_uncertainty = 0;   ///< one sigma of it
     std::uint64_t rays = 0;
 };
 
