@@ -17,9 +17,8 @@
 #include "path_reference.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/rays/make_tracer.h"
-#include "radiosity/light/division/adaptive_division.h"
-#include "radiosity/light/final_gather/final_gather.h"
 #include "radiosity/light/cached_light/patch_light.h"
+#include "radiosity/light/division/adaptive_division.h"
 #include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/sampling/rng.h"
 
@@ -40,7 +39,6 @@ struct Settings {
     std::vector<std::string> scenes, families, asked{"0.05"};
     std::size_t seeds = 10, points = 10000, paths = 256;
     double max_edge = 0;             ///< 0: --divide auto
-    bool gathered = false;           ///< light gathered from the patches, in place of theirs
     std::vector<std::string> groups; ///< that are the target
     ViewSettings view;               ///< whose picture is the target too, where it has a camera
     bool for_all = false;            ///< runs know of no target
@@ -178,29 +176,6 @@ class Truth {
         }
         return sums.error();
     }
-    /// The same of light that is gathered from the solution, as --points gives it.
-    [[nodiscard]] TrueError error_of_gathered(const Mesh& mesh, const Tracer& tracer,
-                                              const Solution& solution, unsigned threads) const {
-        constexpr unsigned rounds = 32;
-        FinalGather gather(mesh, tracer, solution);
-        gather.set_rounds(rounds);
-        std::vector<SurfacePoint> at;
-        std::vector<std::uint64_t> streams;
-        for (const TruthPoint& point : points_) {
-            at.push_back(point.at);
-            streams.push_back(hash_words({7, streams.size()}));
-        }
-        const StopFlag never;
-        const std::vector<Vec3> light = gather.irradiance(at, streams, 2, Workers(threads), never);
-        Sums sums;
-        for (std::size_t k = 0; k < points_.size(); ++k) {
-            const std::uint32_t patch = mesh.patch_at(points_[k].hit);
-            const Vec3& rho = mesh.material(patch).reflectance;
-            sums.add(solution.weight_of(patch), points_[k], rho * light[2 * k],
-                     rho * light[2 * k + 1]);
-        }
-        return sums.error();
-    }
     [[nodiscard]] Mesh mesh(double max_edge) const {
         MeshOptions options = options_;
         options.max_edge = max_edge;
@@ -250,8 +225,6 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     SolveSettings solve = solve_settings(settings);
     solve.options.seed = seed;
     solve.stop.error = error;
-    if (settings.gathered)
-        solve.points.path = "points";
     const MadeTracer made = make_tracer(mesh, find_needs(mesh).tree, settings.threads);
     Monitor monitor;
     Statistics statistics;
@@ -290,9 +263,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     done.patches = mesh.patches().size();
     done.rays = solution.rays_energy + statistics.rays_divide + statistics.rays_division_error;
     solution.weight = target_weights(solve_settings(settings), {}, mesh, *made.tracer);
-    const TrueError off =
-        settings.gathered ? truth.error_of_gathered(mesh, *made.tracer, solution, settings.threads)
-                          : truth.error_of(mesh, solution);
+    const TrueError off = truth.error_of(mesh, solution);
     done.truth = off.value;
     done.doubt = off.uncertainty;
     return done;
@@ -369,8 +340,6 @@ void add_options(Command command, Settings& settings) {
     add_camera_options(command, settings.view);
     command.add_flag("--for-all", settings.for_all,
                      "runs are for all alike, and the true error is still that of the target");
-    command.add_flag("--gathered", settings.gathered,
-                     "the light that is gathered from the patches, in place of theirs");
     command.add_flag("--every-run", settings.every_run, "a line for each run too");
 }
 

@@ -4,7 +4,6 @@
 #include "parallel/workers.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/solving/shared_stop.h"
-#include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/solving/stop_flag.h"
@@ -27,9 +26,6 @@ std::vector<Vec3> FinalGather::irradiance(std::span<const SurfacePoint> points,
                                           std::size_t estimates, const Workers& workers,
                                           const StopFlag& interrupted) {
     std::vector<Vec3> found(points.size() * estimates, Vec3(0.0));
-    const std::size_t rays_of_estimate = std::size_t{random_rays_} * rounds_;
-    if (receivers_)
-        receivers_->assign(found.size() * rays_of_estimate, absorbed);
     const std::size_t rays_of_point =
         estimates * rounds_ * (std::size_t{random_rays_} + shadow_rays_);
     const std::size_t points_per_chunk =
@@ -40,24 +36,16 @@ std::vector<Vec3> FinalGather::irradiance(std::span<const SurfacePoint> points,
     workers.for_chunks(own.count(), points_per_chunk, [&](std::size_t first, std::size_t last) {
         const std::size_t begin = own.item(first), end = begin + (last - first);
         PathRays rays;
-        std::size_t place = begin * estimates * rays_of_estimate; // of the rays in the batch
         for (std::size_t k = begin; k < end && !interrupted; ++k) {
             add_rays(points[k], streams[k], estimates, static_cast<std::uint32_t>(k * estimates),
                      rays);
             if (k + 1 < end && rays.random.size() < rays_per_batch)
                 continue;
-            const GatherPaths::Traced batch = paths_.trace(std::exchange(rays, {}), found);
-            traced += batch.rays;
-            if (receivers_)
-                std::ranges::copy(batch.receivers,
-                                  receivers_->begin() + static_cast<std::ptrdiff_t>(place));
-            place += batch.receivers.size();
+            traced += paths_.trace(std::exchange(rays, {}), found);
         }
     });
     on_this_rank.reset();
     own.gather(found, estimates);
-    if (receivers_)
-        own.gather(*receivers_, estimates * rays_of_estimate);
     own.ranks().add_work(traced, 0);
     rays_ += own.ranks().sum(traced);
     agree(interrupted);
@@ -70,7 +58,6 @@ void FinalGather::add_rays(const SurfacePoint& point, std::uint64_t seed, std::s
     const ReachedEmitters& emitters = paths_.emitters();
     emitters.weigh(point, rays.weighed);
     const bool by_shadow_rays = rays.weighed.pays();
-    const bool finds_light = paths_.finds() == GatherPaths::Find::light;
     const Frame frame = Frame::from_normal(point.normal);
     const std::uint32_t random_rays = random_rays_ * rounds_, shadow_rays = shadow_rays_ * rounds_;
     for (std::size_t e = 0; e < estimates; ++e, ++place) {
@@ -81,10 +68,9 @@ void FinalGather::add_rays(const SurfacePoint& point, std::uint64_t seed, std::s
                      {.seed = hash_words({seed, e, k}),
                       .place = place,
                       .share = Vec3(1.0 / random_rays),
-                      .sees_emission = !by_shadow_rays,
-                      .in_gather = !finds_light});
+                      .sees_emission = !by_shadow_rays});
         }
-        if (by_shadow_rays && finds_light)
+        if (by_shadow_rays)
             emitters.add_rays(point, rays.weighed, numbers, 0, shadow_rays, place, rays.shadow);
     }
 }

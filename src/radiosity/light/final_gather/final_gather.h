@@ -47,17 +47,6 @@ class FinalGather {
     /// those of one sequence, so that more rounds reduce the error faster than independent
     /// estimates would.
     void set_rounds(unsigned rounds) { rounds_ = rounds; }
-    /// Makes irradiance() also tell from then on what each cosine-distributed ray met: a patch,
-    /// `escaped` or `absorbed` (receivers.h). They are in the order of the estimates, rounds *
-    /// random_rays of each.
-    void record_receivers(std::vector<std::uint32_t>& receivers) { receivers_ = &receivers; }
-    /// Makes irradiance() find from then on what it lacks because light varies within patches. It
-    /// would be larger by this amount if only the mean light of each patch were right. `reads_near`
-    /// is for gathers that read patches however near (gather_in_parts.h).
-    void find_spread(bool reads_near) {
-        paths_.find(reads_near ? GatherPaths::Find::spread_however_near
-                               : GatherPaths::Find::spread);
-    }
     /// Returns the number of rays traced so far.
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
@@ -68,7 +57,6 @@ class FinalGather {
     GatherPaths paths_;
     unsigned random_rays_, shadow_rays_;
     unsigned rounds_ = 1;
-    std::vector<std::uint32_t>* receivers_ = nullptr;
     std::atomic<std::uint64_t> rays_{0};
 };
 

@@ -16,20 +16,16 @@ namespace {
 /// the most.
 constexpr unsigned max_bounces = 8;
 
-/// The largest share of paths that go on where they end by chance alone: otherwise they would not
-/// end in a closed room of reflectance 1.
-constexpr double max_kept = .9;
-
 } // namespace
 
-GatherPaths::Traced GatherPaths::trace(PathRays rays, std::span<Vec3> found) const {
-    Traced traced{};
+std::uint64_t GatherPaths::trace(PathRays rays, std::span<Vec3> found) const {
+    std::uint64_t traced = 0;
     for (unsigned bounce = 0; !rays.random.empty(); ++bounce) {
-        traced.rays += rays.shadow.trace(tracer_, [&](const LightAtPlace& sample, bool arrives) {
+        traced += rays.shadow.trace(tracer_, [&](const LightAtPlace& sample, bool arrives) {
             if (arrives)
                 found[sample.place] += sample.light;
         });
-        traced.rays += rays.random.size();
+        traced += rays.random.size();
         std::vector<std::uint32_t> receivers;
         find_receivers(rays.random, mesh_, tracer_, receivers);
         std::vector<Met> further;
@@ -45,10 +41,8 @@ GatherPaths::Traced GatherPaths::trace(PathRays rays, std::span<Vec3> found) con
         PathRays next;
         for (const Met& met : further) {
             const PathRays::State& from = rays.states[met.ray];
-            go_on(from, met, from.in_gather && is_near(met, bounce), next, found);
+            go_on(from, met, next);
         }
-        if (bounce == 0)
-            traced.receivers = std::move(receivers);
         rays = std::move(next);
     }
     return traced;
@@ -66,65 +60,36 @@ GatherPaths::Met GatherPaths::where_met(const PathRays& rays, std::size_t k,
 }
 
 bool GatherPaths::is_near(const Met& met, unsigned bounce) const {
-    return find_ != Find::spread_however_near && bounce < max_bounces &&
-           hemilux::is_near(met.distance, met.arriving.side);
+    return bounce < max_bounces && hemilux::is_near(met.distance, met.arriving.side);
 }
 
 bool GatherPaths::end_ray(const PathRays::State& ray, const Met& met, unsigned bounce,
                           std::span<Vec3> found) const {
-    const bool reflects = met.here.reflectance != Vec3(0.0);
-    const bool near = reflects && is_near(met, bounce);
-    if (find_ == Find::light) {
-        Vec3 light = near ? Vec3(0.0) : met.here.reflectance * met.arriving.value;
-        if (ray.sees_emission || !emitters_.contains(met.patch))
-            light += met.here.emission;
-        found[ray.place] += ray.share * light;
-        return near;
-    }
-    const Vec3 left_out = ray.sees_emission ? Vec3(0.0) : emitters_.emission(met.patch);
-    if (!ray.in_gather)
-        found[ray.place] += ray.share * (light_.of_patches().radiosity[met.patch] - left_out);
-    return reflects && !ray.ends;
+    const bool near = met.here.reflectance != Vec3(0.0) && is_near(met, bounce);
+    Vec3 light = near ? Vec3(0.0) : met.here.reflectance * met.arriving.value;
+    if (ray.sees_emission || !emitters_.contains(met.patch))
+        light += met.here.emission;
+    found[ray.place] += ray.share * light;
+    return near;
 }
 
 /// Adds one random ray of a path that goes on, and one to an emitter where such are taken.
-void GatherPaths::go_on(const PathRays::State& from, const Met& met, bool in_gather, PathRays& next,
-                        std::span<Vec3> found) const {
+void GatherPaths::go_on(const PathRays::State& from, const Met& met, PathRays& next) const {
     const Patch& on = mesh_.patches()[met.patch];
     // Russian roulette (Arvo and Kirk 1990) keeps the paths in narrow gaps and bright rooms short.
     const Vec3& rho = met.here.reflectance;
-    const double kept =
-        std::min(std::max({rho.x, rho.y, rho.z}), find_ == Find::light ? 1 : max_kept);
+    const double kept = std::min(std::max({rho.x, rho.y, rho.z}), 1.0);
     if (Rng(hash_words({from.seed, 2})).uniform() >= kept)
         return;
-    const SurfacePoint at{met.point, on.normal, on.facet, met.patch};
     PathRays::State state = from;
     state.share = from.share * rho / kept;
-    state.in_gather = in_gather;
-    if (!in_gather)
-        emitters_.weigh(at, next.weighed);
-    add_rays(at, state, next);
-    if (find_ == Find::light || in_gather)
-        return;
-    // This is the light of another point of the patch, which is as right on average, by the same
-    // numbers.
-    SurfacePoint other = at;
-    Rng rng(hash_words({from.seed, 3}));
-    const double u = rng.uniform(), v = rng.uniform();
-    other.position = PolygonSampler(on.shape).sample({u, v});
-    if (from.in_gather) // which reads the linear function there
-        found[from.place] -= from.share / kept *
-                             (radiosity_at(mesh_, light_.of_patches(), met.patch, at.position) -
-                              radiosity_at(mesh_, light_.of_patches(), met.patch, other.position));
-    state.share = -state.share;
-    state.ends = true;
-    add_rays(other, state, next);
+    begin_at({met.point, on.normal, on.facet, met.patch}, state, next);
 }
 
 void GatherPaths::add_rays(const SurfacePoint& at, const PathRays::State& state,
                            PathRays& next) const {
     Rng rng(state.seed);
-    const bool by_shadow_ray = !state.in_gather && next.weighed.pays();
+    const bool by_shadow_ray = next.weighed.pays();
     const Ray further = at.ray(Frame::from_normal(at.normal).to_world(sample_cosine(rng)));
     PathRays::State then = state;
     then.seed = hash_words({state.seed, 1});

@@ -2,11 +2,6 @@
 // The paths that follow from the rays of a gather. A ray reads the light of the patch that it
 // meets. A near patch may not send there what it sends on average, as in corners and in gaps. The
 // ray then goes on as a path (Christensen 1999): it gathers the light that is reflected there too.
-//
-// The same paths find what a gather lacks because light varies within patches. Then they go on from
-// everywhere. At each vertex y they find the light that arrives there by the means of patches, less
-// that at another point y' of its patch by the same random numbers. This is what y has more than
-// the mean of its patch.
 
 #include "bvh/tracer.h"
 #include "radiosity/engine/emitters/reached_emitters.h"
@@ -30,8 +25,6 @@ struct PathRays {
         std::uint32_t place;       ///< of the estimate
         Vec3 share;                ///< of what it meets, that counts in the estimate
         bool sees_emission = true; ///< emitters are left to it
-        bool in_gather = false;    ///< nothing is to be found before its path has left the gather
-        bool ends = false;         ///< its path does not go on
     };
     std::vector<Ray> random;
     std::vector<State> states; ///< of each ray at random
@@ -46,16 +39,10 @@ struct PathRays {
 
 class GatherPaths {
   public:
-    /// What is to be found is the light that arrives; or what it lacks, in gathers that go on where
-    /// patches are near, or that read them however near.
-    enum class Find { light, spread, spread_however_near };
-
     /// `light` is what surfaces send. All that is referred to must outlive this object.
     GatherPaths(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light)
         : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh) {}
 
-    void find(Find what) { find_ = what; }
-    [[nodiscard]] Find finds() const { return find_; }
     [[nodiscard]] const ReachedEmitters& emitters() const { return emitters_; }
 
     /// Adds rays for the light that arrives at a point, where a path begins; `state.share` of it
@@ -65,12 +52,9 @@ class GatherPaths {
         add_rays(at, state, rays);
     }
 
-    struct Traced {
-        std::vector<std::uint32_t> receivers; ///< of each ray at random, see receivers.h
-        std::uint64_t rays;                   ///< with all that followed
-    };
-    /// Adds what the rays and their paths find, at their places of `found` [W/m2].
-    Traced trace(PathRays rays, std::span<Vec3> found) const;
+    /// Adds what the rays and their paths find, at their places of `found` [W/m2]. Returns the
+    /// number of all rays.
+    std::uint64_t trace(PathRays rays, std::span<Vec3> found) const;
 
   private:
     /// This is what a random ray meets.
@@ -88,15 +72,13 @@ class GatherPaths {
     /// Adds what is found where a ray ends. Returns whether its path goes on.
     bool end_ray(const PathRays::State& ray, const Met& met, unsigned bounce,
                  std::span<Vec3> found) const;
-    void go_on(const PathRays::State& from, const Met& met, bool in_gather, PathRays& next,
-               std::span<Vec3> found) const;
+    void go_on(const PathRays::State& from, const Met& met, PathRays& next) const;
     void add_rays(const SurfacePoint& at, const PathRays::State& state, PathRays& next) const;
 
     const Mesh& mesh_;
     const Tracer& tracer_;
     SurfaceLight light_;
     ReachedEmitters emitters_;
-    Find find_ = Find::light;
 };
 
 } // namespace hemilux

@@ -1,15 +1,14 @@
 #include "radiosity/light/light_error/division_error.h"
 
 #include "parallel/workers.h"
+#include "radiosity/light/cached_light/light_cache.h"
 #include "radiosity/light/final_gather/light_within_patches.h"
 #include "radiosity/light/final_gather/linear_light.h"
 #include "radiosity/light/final_gather/surface_points.h"
 #include "radiosity/light/light_error/error_at_points.h"
-#include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/error_spread.h"
-#include "radiosity/paper/solution/missed_light.h"
 #include "radiosity/paper/solution/solution.h"
 #include "radiosity/paper/solving/stop_flag.h"
 
@@ -21,8 +20,13 @@
 namespace hemilux {
 namespace {
 
-/// The error that has spread to others is found to this share of the error within patches.
-constexpr double share_of_spread = .4;
+/// The light that gathers read is learned to this error at first, and then to this share of the
+/// error that they find [-].
+constexpr double first_error_of_read = .1, share_of_read = .5;
+
+/// The number of points from which it is learned, and the share of all rays for that.
+constexpr std::size_t points_to_learn = 4096;
+constexpr std::uint64_t share_of_rays = 2;
 
 /// The variance of the patches' values, relative to their square, in its two parts.
 struct KnownVariance {
@@ -69,60 +73,45 @@ double reflected_square(const Mesh& mesh, const Solution& solution) {
     return sum;
 }
 
-DivisionError spread_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                           bool reads_near, const DivisionErrorOptions& options,
-                           const Workers& workers, const StopFlag& interrupted) {
-    if (!(surface_square(mesh, solution) > 0))
-        return {};
-    const SquaredError found =
-        error_of_gathers({mesh, tracer, solution}, reads_near, options, workers, interrupted);
-    return interrupted ? DivisionError{} : reported(found);
-}
-
-DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
-                             const Solution& solution) {
-    // If N rays met nothing, a share of 3 / N may have been missed, the rule of three. The mean
-    // square of the missed share, if all shares are equally likely before, is 2 / N^2.
-    constexpr double mean_of_missed = 2 / (rule_of_three * rule_of_three);
-    const double size = reflected_square(mesh, solution), rho = mean_reflectance(mesh);
-    const double sampled = estimated_error(mesh, solution), square = sampled * sampled;
-    const double missed = solution.missed / size, level = solution.variance_of_level / size;
-    // What is missed, and the level of all light, is common to all that a gather reads.
-    double sampling = rho * sampled;
-    if (solution.reflected_share)
-        sampling = std::sqrt(rho * rho * (mean_of_missed * missed + level) +
-                             *solution.reflected_share * std::max(square - missed - level, 0.0));
-    DivisionError all = spread;
-    all.error = std::hypot(spread.error, sampling);
-    if (all.error > 0)
-        all.uncertainty =
-            std::hypot(spread.error * spread.uncertainty,
-                       sampling * sampling * error_spread(mesh, solution).uncertainty()) /
-            all.error;
-    return all;
-}
-
 DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
                              const DivisionErrorOptions& options, const Workers& workers,
                              const StopFlag& interrupted) {
     const double size = surface_square(mesh, solution);
     if (!(size > 0))
         return {};
-    const LightSource light{mesh, tracer, solution};
     const KnownVariance known = known_variance(mesh, solution, size);
-    // In what patches err together, a gather errs with them, except for what a reflection takes
-    // away.
-    const double rho = mean_reflectance(mesh);
-    const double seen = known.own + known.common * (1 - rho) * (1 - rho);
-    SquaredError all =
-        error_within_patches(light, {seen, seen * known.scatter()}, options, workers, interrupted);
-    const double least = std::sqrt(std::max(all.square, known.own + known.common));
-    if (least > 0) {
-        DivisionErrorOptions of_others = options;
-        of_others.seed = hash_words({options.seed, 1});
-        of_others.negligible = std::max(share_of_spread * least, options.negligible);
-        all.add(error_of_spread(light, of_others, workers, interrupted));
+    const double seen = known.own + known.common;
+    const PointsOverSurface surface(
+        mesh, mixed_density(mesh, solution.weight,
+                            {reflected_squares(mesh, solution.radiosity), options.square}));
+    std::vector<TargetPart> parts;
+    for (const PatchPoint& point : surface.draw(points_to_learn, hash_words({options.seed, 1})))
+        parts.push_back({{point.at},
+                         {mesh.material(point.patch).reflectance},
+                         solution.weight_of(point.patch) * point.area});
+    LightCache cache(mesh, tracer, solution);
+    SquaredError all;
+    std::uint64_t learned = 0;
+    double error_of_read = std::max(first_error_of_read, options.negligible);
+    for (std::uint64_t attempt = 0;; ++attempt) {
+        const ReadError read = cache.learn(parts,
+                                           {.seed = hash_words({options.seed, 2, attempt}),
+                                            .error = error_of_read,
+                                            .max_rays = options.max_rays / share_of_rays},
+                                           workers, interrupted);
+        learned += read.rays;
+        all = error_within_patches({mesh, tracer, solution}, cache.light(),
+                                   {seen, seen * known.scatter()}, options, workers, interrupted);
+        learned += all.rays;
+        if (interrupted)
+            return {};
+        const double whole = std::sqrt(std::max(all.square + seen, seen));
+        all.sigma = std::hypot(all.sigma, read.error * whole);
+        error_of_read = std::max(share_of_read * whole, options.negligible);
+        if (!(read.bound > error_of_read) || learned > options.max_rays)
+            break;
     }
+    all.rays = learned;
     return interrupted ? DivisionError{} : reported(all);
 }
 

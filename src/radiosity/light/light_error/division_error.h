@@ -1,22 +1,15 @@
 #pragma once
 // The distance of a solution's light, one value on each patch, from the light on the surfaces.
 //
-// At points x of the surfaces the light is gathered twice, independently: g1(x), g2(x). Each is
-// right on average for the light that the solution sends, so the mean over the area of
+// At points x of the surfaces the light is gathered twice, independently: g1(x), g2(x). The gathers
+// read light that walks from such points have made right (light_cache.h). So the mean over the area
+// of
 //     (g1 - B)(g2 - B)
 // is the squared error of the solution, free of the noise of either gather. Points lie over the
 // area, where the light is and where patches are small, all alike: a small bright face may hold
-// most of the error. It holds what the patches lack in detail and the noise of each patch's own
-// value; the latter is known and taken off. It does not hold the error of the light that the
-// solution sends (Lischinski, Smits and Greenberg 1994 bound that part). In most rooms that is
-// smaller by a reflection. In bright ones it is the larger part, so it is measured too.
-//
-// What has spread is T (b - B) with T one reflection and b the light. Patches send their means M
-// on, so b - M is r + T r + ... with the residual r(y) = g(y) - M of a gather that reads M. The
-// mean of r over a patch is the error of its value, which is that of sampling. The rest, r(y) -
-// r(y') with y' uniform on the patch of y, is the error of the division. So paths go on from point
-// to point by the rays of gathers. Each vertex y adds that difference by one ray and one shadow ray
-// of the same random numbers from y and from y'. Its noise falls with the size of patches.
+// most of the error. What is left once the known variance of each patch's value is taken off is the
+// error of the division: what patches lack in detail, and what that has done to the light of
+// others.
 
 #include "bvh/tracer.h"
 
@@ -58,26 +51,12 @@ struct DivisionErrorOptions {
     std::span<const double> square = {};
 };
 
-/// Returns the error, due to the division of patches, of light that is gathered from the solution,
-/// as pictures and --points show it: what has spread. With `reads_near`, gathers read each patch
-/// that a ray meets, as those of pictures do. If it was interrupted, the error is not known.
-[[nodiscard]] DivisionError spread_error(const Mesh& mesh, const Tracer& tracer,
-                                         const Solution& solution, bool reads_near,
-                                         const DivisionErrorOptions& options,
-                                         const Workers& workers, const StopFlag& interrupted);
-/// Returns the whole error of gathered light: `spread`, and what a reflection is assumed to leave
-/// of the error of sampling.
-[[nodiscard]] DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
-                                           const Solution& solution);
-
 /// Returns the sum over patches of weight, area and reflected radiosity squared, to which errors
 /// are relative. The square that errors of the division are relative to also has what slopes add.
 [[nodiscard]] double reflected_square(const Mesh& mesh, const Solution& solution);
 
-/// Returns the error of a solution, with a step at least, due to the division of the patches. One
-/// part is within them, by gathers there except for the known variance of its values. The other is
-/// what has spread to others; they do not depend on each other. If it was interrupted, the error is
-/// not known.
+/// Returns the error of a solution, with a step at least, due to the division of the patches. If it
+/// was interrupted, the error is not known.
 [[nodiscard]] DivisionError division_error(const Mesh& mesh, const Tracer& tracer,
                                            const Solution& solution,
                                            const DivisionErrorOptions& options,

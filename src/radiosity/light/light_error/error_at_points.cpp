@@ -43,25 +43,15 @@ struct Rounds {
     }
 };
 
-/// The numbers that depend on how the error varies over the surfaces. Few patches hold most of it,
-/// and very few of those that were divided, where nothing was seen of it. The error of gathered
-/// light is much the same everywhere.
-struct Manner {
-    /// The points of a round at first. Where gathers are longer, there are fewer by their length,
-    /// but at least `min_points`.
-    std::size_t points_per_round, min_points;
-    /// The relative uncertainty of the squared error at which it is known well enough. Where few
-    /// places hold it, what is known of its spread is uncertain itself.
-    double well_known;
-    /// An error that is negligible is found out all the same if so many rays are enough.
-    std::uint64_t cheap_rays;
-    /// The number of gathers at a point, which share a round of rays for two. The mean of the
-    /// products of all pairs of n has n / (2 n - 2) times the variance by noise of one product of
-    /// two.
-    unsigned gathers;
-};
-constexpr Manner of_patches{64, 64, .15, 0, 2}, of_divided{640, 64, .15, 0, 2},
-    of_spread{32, 32, .2, 0, 2}, of_gathered{32, 32, .17, 600'000, 8};
+/// The relative uncertainty of the squared error at which it is known well enough.
+constexpr double well_known = .15;
+
+/// The numbers of points of a round: very few patches that were divided hold most of the error,
+/// where nothing was seen of it. Where gathers are longer, there are fewer by their length.
+constexpr std::size_t min_points = 64, points_of_divided = 640;
+
+/// The number of gathers at a point.
+constexpr std::size_t gathers = 2;
 
 /// The integrals over the surfaces, by one set of points.
 struct Products {
@@ -82,7 +72,7 @@ class ErrorAtPoints {
         : light_(light), off_at_(off_at), gather_(gather), surface_(surface), workers_(workers),
           interrupted_(interrupted), size_(surface_square(light.mesh, light.solution)) {}
 
-    [[nodiscard]] SquaredError find(const OtherError& other, const Manner& manner,
+    [[nodiscard]] SquaredError find(const OtherError& other, std::size_t points_per_round,
                                     const DivisionErrorOptions& options) const;
 
   private:
@@ -101,28 +91,26 @@ class ErrorAtPoints {
 /// Gathers are short at first. The variance of a product is about (error^2 + noise^2)^2. So where
 /// noise leaves too much uncertainty, longer gathers know the error sooner than more points would.
 /// They begin anew, as a sum that ends by its own spread is biased.
-SquaredError ErrorAtPoints::find(const OtherError& other, const Manner& manner,
+SquaredError ErrorAtPoints::find(const OtherError& other, std::size_t points_per_round,
                                  const DivisionErrorOptions& options) const {
     // For f times less noise, longer gathers, which begin anew, cost f times the rays so far, and
     // more points f^2 - 1 times.
-    constexpr double barely_negligible = .01, growth_pays = 1.6, min_growth = 2, max_growth = 4;
+    constexpr double growth_pays = 1.6, min_growth = 2, max_growth = 4;
     const double negligible = options.negligible * options.negligible;
-    const auto longest = double(longest_round / manner.min_points);
+    const auto longest = double(longest_round / min_points);
     double length = 1;
-    std::size_t points = manner.points_per_round;
+    std::size_t points = points_per_round;
     Rounds rounds, noise;
     double uncertainty = 0;
     for (std::uint64_t number = 0;; ++number) {
-        const Products sums = products(points, manner.gathers, hash_words({options.seed, number}));
+        const Products sums = products(points, gathers, hash_words({options.seed, number}));
         if (interrupted_)
             return {};
         rounds.add(sums.error / size_);
         noise.add(sums.by_noise / (size_ * size_));
         if (rounds.count < min_rounds)
             continue;
-        const double enough = std::max(
-            manner.well_known * (rounds.mean() - other.square),
-            gather_.rays() < manner.cheap_rays ? barely_negligible * negligible : negligible);
+        const double enough = std::max(well_known * (rounds.mean() - other.square), negligible);
         // Rounds may be alike by chance: they differ at least by the noise within them.
         const double by_noise = std::sqrt(noise.mean() / static_cast<double>(noise.count));
         uncertainty = std::max(rounds.uncertainty(), by_noise);
@@ -134,8 +122,7 @@ SquaredError ErrorAtPoints::find(const OtherError& other, const Manner& manner,
         if (growth_pays * enough < by_noise && length < longest && growth * rays <= max_rays) {
             length = std::min(std::round(growth * length), longest);
             gather_.set_rounds(static_cast<unsigned>(length));
-            points = std::max(manner.min_points,
-                              manner.points_per_round / static_cast<std::size_t>(length));
+            points = std::max(min_points, points_per_round / static_cast<std::size_t>(length));
             rounds = noise = {};
         } else if (rays >= max_rays) {
             break;
@@ -169,20 +156,6 @@ Products ErrorAtPoints::products(std::size_t count, std::size_t gathers, std::ui
     return sums;
 }
 
-/// Returns the error of gathered light because light varies within patches. This varies little over
-/// the surfaces.
-SquaredError spread(const LightSource& light, bool reads_near, const Manner& manner,
-                    const DivisionErrorOptions& options, const Workers& workers,
-                    const StopFlag& interrupted) {
-    FinalGather gather(light.mesh, light.tracer, light.solution,
-                       2 * FinalGather::usual_random_rays / manner.gathers);
-    gather.find_spread(reads_near);
-    const OffAt lacking = [](const PatchPoint&, const Vec3& lacks) { return lacks; };
-    const PointsOverSurface surface(light.mesh, light.solution.weight);
-    return ErrorAtPoints(light, lacking, gather, surface, workers, interrupted)
-        .find({}, manner, options);
-}
-
 } // namespace
 
 double surface_square(const Mesh& mesh, const Solution& solution) {
@@ -194,12 +167,12 @@ double surface_square(const Mesh& mesh, const Solution& solution) {
     return sum;
 }
 
-SquaredError error_within_patches(const LightSource& light, const OtherError& other,
-                                  const DivisionErrorOptions& options, const Workers& workers,
-                                  const StopFlag& interrupted) {
+SquaredError error_within_patches(const LightSource& light, const SurfaceLight& read,
+                                  const OtherError& other, const DivisionErrorOptions& options,
+                                  const Workers& workers, const StopFlag& interrupted) {
     const Mesh& mesh = light.mesh;
     const Solution& solution = light.solution;
-    FinalGather gather(mesh, light.tracer, solution);
+    FinalGather gather(mesh, light.tracer, read);
     const OffAt off_at = [&](const PatchPoint& point, const Vec3& gathered) {
         return gathered - (radiosity_at(mesh, solution, point.patch, point.at.position) -
                            mesh.material(point.patch).emission);
@@ -208,18 +181,7 @@ SquaredError error_within_patches(const LightSource& light, const OtherError& ot
         mesh, mixed_density(mesh, solution.weight,
                             {reflected_squares(mesh, solution.radiosity), options.square}));
     return ErrorAtPoints(light, off_at, gather, surface, workers, interrupted)
-        .find(other, options.square.empty() ? of_patches : of_divided, options);
-}
-
-SquaredError error_of_spread(const LightSource& light, const DivisionErrorOptions& options,
-                             const Workers& workers, const StopFlag& interrupted) {
-    return spread(light, false, of_spread, options, workers, interrupted);
-}
-
-SquaredError error_of_gathers(const LightSource& light, bool reads_near,
-                              const DivisionErrorOptions& options, const Workers& workers,
-                              const StopFlag& interrupted) {
-    return spread(light, reads_near, of_gathered, options, workers, interrupted);
+        .find(other, options.square.empty() ? min_points : points_of_divided, options);
 }
 
 } // namespace hemilux
