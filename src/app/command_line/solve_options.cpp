@@ -62,7 +62,9 @@ void add_stop_options(Command command, StopRule& stop) {
                              std::numeric_limits<std::uint32_t>::max(), "after N steps");
     add_seconds(command, "--time", stop.seconds, positive,
                 "after a time of solving; 2m and 1h are minutes and hours");
-    add_error(command, "--error", stop.error, "at an estimated relative error, e.g. 1% or 0.01");
+    add_error(command, "--error", stop.error,
+              "at an estimated relative error, e.g. 1% or 0.01; for pictures and --points at an "
+              "error of gathered light that is surely below this [0.02 for these]");
     add_whole<std::uint64_t>(
         command, "--max-rays", stop.rays, 1, std::numeric_limits<std::uint64_t>::max(),
         "after N rays, even if the error is not reached [1e8 and 1000 a patch]");
@@ -113,7 +115,7 @@ void add_point_options(Command command, SolveSettings& settings) {
     add_whole<unsigned>(
         command, "--gather", settings.gather, 1, SolveSettings::max_gather,
         "rays that gather light at a point of a picture, more at edges; at one of --points 256 "
-        "times as many [16]");
+        "times as many [16, or as many as --error needs]");
     command.add_action(
         "--no-gather", [&settings] { settings.gather_pictures = false; },
         "pictures interpolate the light of the patches: sooner done, shadows as patches have "
@@ -207,11 +209,9 @@ void add_divide_option(Command command, Option max_edge, SolveSettings& settings
     add_parsed(
         command, "--divide", "auto|none|LENGTH",
         "patches: auto: divided where the light changes within them, and linear light on each, "
-        "until the error of the light itself is that of --error [0.05; 0.02 where all light is "
-        "gathered, for pictures and --points]; none: the faces; LENGTH: as --max-edge [auto below "
-        "20 000 patches, and below 200 000 where gathered light would be off by 0.05, for the "
-        "default method without --steps, --every-step, --reference, --checkpoint and --for; else "
-        "none]",
+        "until the error of the light itself is that of --error [0.05]; none: the faces; LENGTH: "
+        "as --max-edge [auto where a mesh is written, below 20 000 patches, for the default method "
+        "without --steps, --every-step, --reference, --checkpoint and --for; else none]",
         "auto, none or a length above 0", division_from,
         [&settings](const DivisionChoice& choice) {
             settings.divide_given = true;
@@ -235,7 +235,7 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_plain_option(method, settings.plain);
     add_own_options(command.under(own_group), methods(), settings.options);
     add_stop_options(command.under("Stop at the first that is met"), settings.stop);
-    add_whole_error_option(command, settings);
+    add_whole_error_option(scene, settings);
     add_target_option(command.under("Target"), settings.target);
     add_output_options(outputs, settings);
     add_point_options(outputs, settings);

@@ -32,7 +32,8 @@ std::string lost_light_of(const SolveSettings& settings, const Results& results)
 double seconds_of_stages(const Statistics& s) {
     const auto known = [](double seconds) { return std::isfinite(seconds) ? seconds : 0; };
     return known(s.seconds_read) + known(s.seconds_bvh) + s.seconds_divide +
-           known(s.seconds_density) + known(s.seconds_solve) + known(s.seconds_division_error);
+           known(s.seconds_density) + known(s.seconds_solve) + known(s.seconds_division_error) +
+           s.seconds_learn + s.seconds_gather;
 }
 
 /// Returns what a user must know of a run that has ended.

@@ -133,7 +133,7 @@ void Gathering::find_picture(const Camera& camera) {
     for (std::uint64_t attempt = 0;; ++attempt, options.gather *= 4) {
         const Stopwatch watch;
         light_.picture = render_view(scene_, camera, options);
-        light_.seconds_picture += watch.seconds();
+        statistics_.seconds_gather += watch.seconds();
         const Stopwatch judging;
         const PictureError own =
             picture_error(scene_.mesh, scene_.tracer, light_.cache->light(), rays, *light_.picture,

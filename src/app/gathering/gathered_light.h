@@ -24,7 +24,6 @@ struct GatheredLight {
     std::vector<Sensor> sensors;       ///< by point of --points
     LightAtPoints points;
     std::optional<Image> picture; ///< empty: none was asked for, or a signal ended it
-    double seconds_picture = 0;
 };
 
 /// Returns whether any output shows gathered light.

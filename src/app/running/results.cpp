@@ -260,7 +260,6 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
     // What is done side by side shares the time.
     const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
     const double share = sum > 0 ? (writing.seconds() - seconds_points - seconds_map) / sum : 0;
-    statistics.seconds_gather = results.gathered.seconds_picture;
     statistics.seconds_picture = seconds_map + share * seconds[0];
     statistics.seconds_write = seconds_points + share * (sum - seconds[0]);
     statistics.bytes_peak = peak_memory_bytes();

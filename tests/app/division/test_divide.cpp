@@ -19,7 +19,8 @@ using test::Workplace;
 TEST_CASE("a run on fixed patches reports what sampling and what the division leaves") {
     const Workplace place;
     place.write_room();
-    const auto outcome = place.hemilux("solve room.obj --divide none -o r.csv --stats s.json");
+    const auto outcome =
+        place.hemilux("solve room.obj --divide none --whole-error -o r.csv --stats s.json");
     REQUIRE(outcome.code == 0);
     CHECK_THAT(outcome.err, Contains("of the patches' mean light") &&
                                 Contains("within patches the light differs by") &&
@@ -29,6 +30,10 @@ TEST_CASE("a run on fixed patches reports what sampling and what the division le
     CHECK(statistic(json, "error_division") > .05);
     CHECK(statistic(json, "error_division_uncertainty") > 0);
     CHECK(statistic(json, "rays_divide") == 0);
+    const auto plain = place.hemilux("solve room.obj -o p.csv --stats s.json");
+    CHECK_THAT(plain.err, Contains("--whole-error finds what they leave out"));
+    CHECK_THAT(place.read("s.json"), Contains("\"error_division\": null"));
+    CHECK(place.read("p.csv") == place.read("r.csv"));
 }
 
 TEST_CASE("the error of the division is found where it is shown; tables do not depend on it") {
@@ -49,7 +54,7 @@ TEST_CASE("the error of the division is found where it is shown; tables do not d
 
     const Workplace place;
     place.write_room();
-    for (const std::string divide : {"none", "auto"}) {
+    for (const std::string divide : {"none --whole-error", "auto"}) {
         const std::string command = "solve room.obj --error .2 --divide " + divide;
         REQUIRE(place.hemilux(command + " -q -o quiet.csv").code == 0);
         REQUIRE(place.hemilux(command + " -o shown.csv --stats s.json").code == 0);
@@ -154,75 +159,22 @@ TEST_CASE("a run that divides patches can be resumed to the same bytes", "[slow]
     CHECK(place.read("1.csv") == place.read("2.csv"));
 }
 
-TEST_CASE("a plain solve divides, but for runs that are about patches or single steps", "[slow]") {
+TEST_CASE("a plain solve divides for meshes, but not in runs that are about patches or steps",
+          "[slow]") {
     const Workplace place;
     place.write_room();
     const auto table = [&](const std::string& options) {
         REQUIRE(place.hemilux("solve room.obj -q -o a.csv " + options).code == 0);
         return place.read("a.csv");
     };
-    CHECK(table("") == table("--divide auto"));
-    CHECK(table("") != table("--divide none"));
+    CHECK(table("") == table("--divide none"));
+    CHECK(table("-o a.ply") == table("--divide auto"));
+    CHECK(table("-o a.ply") != table("--divide none"));
     REQUIRE(place.hemilux("solve room.obj -q --divide none -o fixed.csv").code == 0);
     for (const std::string options :
          {"--steps 2", "--method hemisphere --steps 2", "--reference fixed.csv",
           "--for camera --camera .5,.5,.5,0,.5,.5", "--checkpoint saved", "--plain --steps 2"})
-        CHECK(table(options) == table(options + " --divide none"));
-}
-
-namespace {
-
-/// A room of 1 m whose floor has 20 164 tiles. A lamp shines at the ceiling from 5 cm below, or all
-/// of the ceiling is the lamp.
-void write_room_of_tiles(const Workplace& place, const std::string& name, bool lit_from_below) {
-    constexpr int tiles = 142;
-    std::string text = "mtllib tiles.mtl\nusemtl white\n";
-    const auto side = [&](const std::string& corners) { text += corners + "f -4 -3 -2 -1\n"; };
-    const auto at = [](int k) { return std::to_string(double(k) / tiles); };
-    for (int y = 0; y < tiles; ++y)
-        for (int x = 0; x < tiles; ++x)
-            side("v " + at(x) + " 0 " + at(y) + "\nv " + at(x) + " 0 " + at(y + 1) + "\nv " +
-                 at(x + 1) + " 0 " + at(y + 1) + "\nv " + at(x + 1) + " 0 " + at(y) + "\n");
-    side("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n");
-    side("v 1 0 1\nv 0 0 1\nv 0 1 1\nv 1 1 1\n");
-    side("v 0 0 1\nv 0 0 0\nv 0 1 0\nv 0 1 1\n");
-    side("v 1 0 0\nv 1 0 1\nv 1 1 1\nv 1 1 0\n");
-    const std::string ceiling = "v 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\n", lamp = "usemtl lamp\n";
-    if (lit_from_below) {
-        side(ceiling);
-        side("v .4 .95 .4\nv .6 .95 .4\nv .6 .95 .6\nv .4 .95 .6\n");
-        side(lamp + "v .4 .95 .6\nv .6 .95 .6\nv .6 .95 .4\nv .4 .95 .4\n");
-    } else {
-        side(lamp + ceiling);
-    }
-    place.write("tiles.mtl", "newmtl white\nKd .7 .7 .7\nnewmtl lamp\nKe 10 10 10\n");
-    place.write(name, text);
-}
-
-} // namespace
-
-TEST_CASE("a plain solve divides a model of many small faces only where light on its large ones "
-          "would be far off",
-          "[slow]") {
-    const Workplace place;
-    for (const bool lit_from_below : {false, true}) {
-        write_room_of_tiles(place, "tiles.obj", lit_from_below);
-        const auto outcome =
-            place.hemilux("solve tiles.obj --sides front --size 60x40 -o a.png --stats s.json");
-        CAPTURE(lit_from_below, outcome.err);
-        REQUIRE(outcome.code == 0);
-        const double faces = lit_from_below ? 20171 : 20169,
-                     patches = statistic(place.read("s.json"), "patches"),
-                     error = statistic(place.read("s.json"), "estimated_error");
-        CHECK((patches > faces) == lit_from_below);
-        CHECK(patches < faces + 20000);
-        CHECK(error < .05);
-    }
-    REQUIRE(place
-                .hemilux("solve tiles.obj --sides front --divide none --size 60x40 -o a.png "
-                         "--stats s.json -q")
-                .code == 0);
-    CHECK(statistic(place.read("s.json"), "error_division") > .2);
+        CHECK(table("-o a.ply " + options) == table(options + " --divide none"));
 }
 
 TEST_CASE("where all light is gathered the reported error is that of gathered light", "[slow]") {
@@ -238,15 +190,16 @@ TEST_CASE("where all light is gathered the reported error is that of gathered li
           "-o a.hdr --size 32x24 --points points.txt --points-output p.csv"}) {
         const std::string json = error_of(gathered);
         CHECK_THAT(json, Contains("\"estimated_error_of\": \"gathered\""));
-        CHECK(statistic(json, "estimated_error") <= .02);
-        CHECK(statistic(json, "error_division") > statistic(json, "estimated_error"));
+        CHECK(statistic(json, "estimated_error") <= statistic(json, "error_bound"));
+        CHECK(statistic(json, "error_bound") <= .021);
+        CHECK(statistic(json, "rays_learn") > 0);
+        CHECK_THAT(json, Contains("\"error_division\": null"));
     }
     for (const std::string of_patches :
-         {"-o a.png --size 32x24 --no-gather", "-o a.png --size 32x24 -o a.csv", "-o a.ply",
+         {"-o a.png --size 32x24 --no-gather", "-o a.png --size 32x24 -o a.csv",
           "-o a.png --size 32x24 --error-map e.png"})
-        CHECK_THAT(error_of(of_patches), Contains("\"estimated_error_of\": \"surfaces\""));
-    CHECK_THAT(error_of("-o a.png --size 32x24 --divide none"),
-               Contains("\"estimated_error_of\": \"patches\""));
+        CHECK_THAT(error_of(of_patches), Contains("\"estimated_error_of\": \"patches\""));
+    CHECK_THAT(error_of("-o a.ply"), Contains("\"estimated_error_of\": \"surfaces\""));
 }
 
 TEST_CASE("gathered light is the same for any number of threads, and so is what it asks for",

@@ -66,7 +66,7 @@ TEST_CASE("the seconds of the stages are all of a run", "[slow]") {
         CHECK(json == place.read("b.json"));
         double sum = 0;
         for (const char* stage : {"read", "bvh", "divide", "density", "solve", "division_error",
-                                  "analysis", "gather", "picture", "write"}) {
+                                  "analysis", "learn", "gather", "picture", "write"}) {
             const double seconds = statistic(json, std::string("seconds_") + stage);
             CHECK(seconds >= 0);
             sum += seconds;

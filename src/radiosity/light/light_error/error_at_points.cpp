@@ -51,7 +51,7 @@ constexpr double well_known = .15;
 constexpr std::size_t min_points = 64, points_of_divided = 640;
 
 /// The number of gathers at a point.
-constexpr std::size_t gathers = 2;
+constexpr std::size_t gathers_at_point = 2;
 
 /// The integrals over the surfaces, by one set of points.
 struct Products {
@@ -103,7 +103,7 @@ SquaredError ErrorAtPoints::find(const OtherError& other, std::size_t points_per
     Rounds rounds, noise;
     double uncertainty = 0;
     for (std::uint64_t number = 0;; ++number) {
-        const Products sums = products(points, gathers, hash_words({options.seed, number}));
+        const Products sums = products(points, gathers_at_point, hash_words({options.seed, number}));
         if (interrupted_)
             return {};
         rounds.add(sums.error / size_);

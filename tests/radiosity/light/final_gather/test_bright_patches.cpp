@@ -4,8 +4,8 @@
 #include "support/scenes.h"
 #include "support/solve.h"
 
-#include "support/catch.h"
 #include "radiosity/light/cached_light/patch_light.h"
+#include "support/catch.h"
 
 #include <cmath>
 

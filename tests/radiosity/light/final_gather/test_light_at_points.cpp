@@ -1,7 +1,9 @@
 // The light at points that a user names, against closed forms.
 #include "geometry/box.h"
 #include "parallel/workers.h"
+#include "radiosity/light/cached_light/light_cache.h"
 #include "radiosity/light/final_gather/light_at_points.h"
+#include "radiosity/paper/solving/stop_flag.h"
 #include "support/closed_forms.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -29,7 +31,23 @@ Scene lamp_over_ground() {
 
 std::vector<PointLight> light_of(const Model& model, const Solution& solution,
                                  const std::vector<Sensor>& sensors, unsigned threads = 0) {
-    return light_at(sensors, model.mesh, model.bvh, solution, {.rays = 1024}, Workers(threads));
+    return light_at(sensors, model.mesh, model.bvh, SurfaceLight(model.mesh, solution),
+                    {.rays = 1024}, Workers(threads))
+        .lights;
+}
+
+/// The light as solve --points gives it out: what gathers read is learned before.
+std::vector<PointLight> learned_light_at(std::span<const Sensor> sensors, const Model& model,
+                                         const Solution& solution, std::uint64_t seed) {
+    std::vector<TargetPart> parts;
+    for (const Sensor& sensor : sensors)
+        parts.push_back({{sensor.at}, {Vec3(1.0)}});
+    LightCache cache(model.mesh, model.bvh, solution);
+    const StopFlag never;
+    const ReadError read = cache.learn(parts, {.seed = seed, .error = .03}, Workers(0), never);
+    return light_at(sensors, model.mesh, model.bvh, cache.light(),
+                    {.rays = 1024, .read_error = read.error * read.level, .seed = seed}, Workers(0))
+        .lights;
 }
 
 Sensor sensor_of(const Model& model, const Vec3& position, const Vec3& normal) {
@@ -106,8 +124,7 @@ TEST_CASE("the standard error of a point's light is how far runs scatter", "[slo
             const Solution solution = test::solve(model, *find_method(method),
                                                   {.rays = 256, .seed = run}, test::steps(8));
             const std::vector<PointLight> lights =
-                light_at(sensors, model.mesh, model.bvh, solution,
-                         {.rays = 1024, .seed = 100 + run}, Workers(0));
+                learned_light_at(sensors, model, solution, 100 + run);
             for (std::size_t k = 0; k < sensors.size(); ++k) {
                 sum[k] += lights[k].irradiance;
                 squares[k] += lights[k].irradiance * lights[k].irradiance;
@@ -138,7 +155,7 @@ TEST_CASE("light at points does not depend on the number of threads, and can be 
         CHECK(one[k].irradiance == three[k].irradiance);
         CHECK(one[k].standard_error == three[k].standard_error);
     }
-    CHECK(light_at(sensors, model.mesh, model.bvh, solution, {.give_up = [] { return true; }},
-                   Workers(1))
-              .empty());
+    CHECK(light_at(sensors, model.mesh, model.bvh, SurfaceLight(model.mesh, solution),
+                   {.give_up = [] { return true; }}, Workers(1))
+              .lights.empty());
 }

@@ -12,8 +12,8 @@
 #include "support/solve.h"
 #include "support/targets.h"
 
-#include "support/catch.h"
 #include "radiosity/light/cached_light/patch_light.h"
+#include "support/catch.h"
 
 #include <cmath>
 #include <limits>
@@ -79,14 +79,6 @@ DivisionError division_error_of(const Model& model, const Solution& solution, st
     return division_error(model.mesh, model.bvh, solution,
                           {.seed = seed, .max_rays = max_rays, .negligible = 0}, Workers(threads),
                           never);
-}
-
-DivisionError spread_error_of(const Model& model, const Solution& solution, std::uint64_t seed,
-                              double negligible) {
-    const StopFlag never;
-    return spread_error(model.mesh, model.bvh, solution, true,
-                        {.seed = seed, .max_rays = 1'000'000, .negligible = negligible}, Workers(0),
-                        never);
 }
 
 Scene bright_room_with_block() {
@@ -301,82 +293,6 @@ TEST_CASE("the errors of patches add up to that of the division") {
     CHECK(patch_error_levels(model.mesh, model.bvh, solution, 1, Workers(0), interrupted).empty());
 }
 
-TEST_CASE("what gathers lack is what they find besides where patches are divided finely",
-          "[slow]") {
-    const Model coarse(bright_room_with_block()), fine(bright_room_with_block(), {.max_edge = .1});
-    const StopRule well{.steps = {}, .seconds = {}, .error = .003};
-    Solution solution = test::solve(coarse, *find_method("stored-transport"), {}, well);
-    const Solution finely = test::solve(fine, *find_method("stored-transport"), {}, well);
-    const StopFlag never;
-    const bool linear = GENERATE(false, true);
-    if (linear) {
-        std::vector<std::uint32_t> all(coarse.mesh.patches().size());
-        std::iota(all.begin(), all.end(), 0u);
-        const LightWithinPatches within = light_within_patches(
-            {coarse.mesh, coarse.bvh, solution}, all, {.rounds = 8, .rays = 16}, Workers(0), never);
-        for (const std::uint32_t i : all)
-            solution.slope.push_back(
-                agreed_slope(coarse.mesh.patches()[i], within.slopes[i]).slope);
-    }
-    std::vector<SurfacePoint> points;
-    std::vector<std::uint64_t> streams;
-    for (const PatchPoint& point : PointsOverSurface(coarse.mesh).draw(24, 1)) {
-        points.push_back({point.at.position, point.at.normal, point.at.facet});
-        streams.push_back(points.size());
-    }
-    FinalGather lacking(coarse.mesh, coarse.bvh, solution);
-    lacking.find_spread(true);
-    lacking.set_rounds(256);
-    const std::vector<Vec3> spread = lacking.irradiance(points, streams, 1, Workers(0), never);
-    double square = 0, off = 0;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        // Both by the same rays, which read patches however near.
-        const auto found = [&](const Model& model, const Solution& light) {
-            const GatherSamples samples{streams[k], 0, 4096};
-            return GatherInParts(model.mesh, model.bvh, light)
-                .indirect(std::span(points).subspan(k, 1), std::span(&samples, 1))[0]
-                .irradiance;
-        };
-        const Vec3 besides = found(fine, finely) - found(coarse, solution);
-        square += glm::dot(besides, besides);
-        off += glm::dot(spread[k] - besides, spread[k] - besides);
-    }
-    CAPTURE(linear, std::sqrt(square), std::sqrt(off));
-    CHECK(std::sqrt(off) < .35 * std::sqrt(square));
-}
-
-TEST_CASE("gathered light has what a reflection leaves of the error of sampling, and what the "
-          "division leaves") {
-    const double rho = .5;
-    const Model model(test::furnace_box(2, rho), {});
-    Solution solution =
-        test::solve(model, *find_method("monte-carlo"), {.rays = 32}, test::steps(8));
-    solution.missed = 0;
-    const double sampling = estimated_error(model.mesh, solution);
-    REQUIRE(sampling > .01);
-    const auto error = [&](double spread) {
-        return gathered_error({.error = spread, .uncertainty = .1 * spread}, model.mesh, solution)
-            .error;
-    };
-    // Where no more is known all patches may err alike.
-    CHECK(error(0) == Approx(rho * sampling));
-    CHECK(error(.1) == Approx(std::hypot(rho * sampling, .1)));
-    constexpr double share = .01;
-    solution.reflected_share = share;
-    CHECK(error(0) == Approx(std::sqrt(share) * sampling));
-    // They do in what they may have missed, and in the level of all light.
-    const double missed = .02;
-    solution.missed = .25 * missed * missed * reflected_square(model.mesh, solution);
-    solution.variance_of_level = 3 * solution.missed;
-    solution.level_freedom = std::numeric_limits<double>::infinity();
-    const double square = std::pow(estimated_error(model.mesh, solution), 2);
-    REQUIRE(square > missed * missed);
-    // On average they have missed two ninths of the square that the rule of three allows for.
-    constexpr double common = .75 + .25 * 2 / 9;
-    CHECK(error(0) == Approx(std::sqrt(common * std::pow(rho * missed, 2) +
-                                       share * (square - missed * missed))));
-}
-
 TEST_CASE("what a reflection leaves of the error of sampling is what gathers are off by") {
     const double max_edge = GENERATE(1.0, .5);
     const Model model(bright_room_with_block(), {.max_edge = max_edge});
@@ -408,29 +324,4 @@ TEST_CASE("what a reflection leaves of the error of sampling is what gathers are
     CAPTURE(max_edge, std::sqrt(known / seeds), std::sqrt(found / seeds));
     CHECK(known < 2 * found);
     CHECK(found < 2 * known);
-}
-
-TEST_CASE("where light does not vary within patches gathers lack nothing") {
-    const Model model(test::furnace_box(2, .5), {});
-    Solution solution = test::solve(model, *find_method("stored-transport"), {},
-                                    {.steps = 1, .seconds = {}, .error = {}});
-    std::ranges::fill(solution.radiosity, Vec3(2));
-    for (std::uint64_t seed = 1; seed <= 8; ++seed)
-        CHECK(spread_error_of(model, solution, seed, .02).error < 1e-6);
-}
-
-TEST_CASE("gathered light holds more of what varies within patches the coarser they are",
-          "[slow]") {
-    const Model coarse(test::room_with_block(), {}),
-        fine(test::room_with_block(), {.max_edge = .15});
-    const auto error = [](const Model& model) {
-        const Solution solution = test::solve(model, *find_method("stored-transport"), {},
-                                              {.steps = {}, .seconds = {}, .error = .01});
-        double sum = 0;
-        constexpr int seeds = 4;
-        for (std::uint64_t seed = 1; seed <= seeds; ++seed)
-            sum += spread_error_of(model, solution, seed, .005).error / seeds;
-        return sum;
-    };
-    CHECK(error(coarse) > 2 * error(fine));
 }
