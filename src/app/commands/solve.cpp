@@ -11,7 +11,7 @@
 #include "app/memory/memory.h"
 #include "app/rendering/view.h"
 #include "app/running/checkpointing.h"
-#include "app/running/point_table.h"
+#include "app/gathering/point_table.h"
 #include "app/running/run_files.h"
 #include "app/running/run_notes.h"
 #include "app/running/signals.h"

@@ -2,6 +2,7 @@
 
 #include "app/division/whole_error.h"
 #include "app/loading/sides.h"
+#include "app/running/unknown_groups.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/summary.h"
@@ -42,6 +43,8 @@ std::vector<std::string> warnings_of(const SolveSettings& settings, const Result
     std::vector<std::string> warnings = notes.texts(results.statistics.error_sampling, interrupted);
     if (!interrupted)
         warnings.push_back(whole_error_note(settings, results.statistics));
+    if (!gives_gathered_light(settings))
+        warnings.push_back(unknown_groups_text(results.mesh, results.solution));
     warnings.push_back(lost_light_of(settings, results));
     std::erase(warnings, std::string());
     return warnings;

@@ -5,7 +5,7 @@
 #include "app/report/report_page.h"
 #include "app/running/error_map.h"
 #include "app/running/layered_picture.h"
-#include "app/running/point_table.h"
+#include "app/gathering/point_table.h"
 #include "app/terminal/log.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"

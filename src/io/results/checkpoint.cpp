@@ -12,7 +12,7 @@ namespace hemilux {
 namespace {
 
 constexpr std::string_view magic = "hemilux checkpoint, format ";
-constexpr std::string_view format = "8";
+constexpr std::string_view format = "9";
 constexpr std::size_t word = sizeof(std::uint64_t);
 constexpr std::size_t longest_format = 8; ///< digits of a version to come
 

@@ -52,7 +52,6 @@ void save_solution(const Solution& solution, StateWriter& state) {
     state.add(solution.effective_freedom.value_or(0));
     state.add(solution.variance.value_or(-1));
     state.add(solution.variance_of_level);
-    state.add(solution.reflected_share.value_or(-1));
     state.add(solution.missed);
     state.add(solution.figures.value(transport_figures::unlit));
     save_energy(solution.energy, state);
@@ -72,7 +71,6 @@ void load_solution(Solution& solution, StateReader& state) {
     solution.effective_freedom = parts > 0 ? std::optional(parts) : std::nullopt;
     solution.variance = number_or_nothing(state);
     state.get(solution.variance_of_level, bounds::non_negative);
-    solution.reflected_share = number_or_nothing(state);
     state.get(solution.missed, bounds::non_negative);
     solution.figures.set(transport_figures::unlit, state.whole_up_to(solution.radiosity.size()));
     load_energy(solution.energy, state);

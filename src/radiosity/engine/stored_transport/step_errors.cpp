@@ -47,26 +47,6 @@ double direct_variance(const TransportResult& result, std::uint32_t i) {
     return result.system.area()[i] * glm::dot(rho * rho, squares) / double(batches * (batches - 1));
 }
 
-/// Returns the share that one reflection leaves of what half of the batches differ by from the
-/// others. This difference errs as their mean.
-std::optional<double> reflected_share(const TransportResult& result, const Workers& workers) {
-    static_assert(batches == 4);
-    const std::span<const Vec3> rho = result.system.reflectance();
-    std::vector<Vec3> off(rho.size()), arriving(rho.size());
-    for (std::uint32_t i = 0; i < off.size(); ++i) {
-        const auto of_batch = result.light.deviations(i);
-        off[i] = rho[i] * (of_batch[0] + of_batch[1] - of_batch[2] - of_batch[3]);
-    }
-    result.factors.multiply(off, arriving, workers);
-    double before = 0, after = 0;
-    for (std::uint32_t i = 0; i < off.size(); ++i) {
-        const double counts = weighted_area(result, i);
-        before += counts * glm::dot(off[i], off[i]);
-        after += counts * glm::dot(rho[i] * arriving[i], rho[i] * arriving[i]);
-    }
-    return before > 0 ? std::optional(after / before) : std::nullopt;
-}
-
 } // namespace
 
 BatchSpread spread_of_batches(const TransportResult& result, const TargetAim& aim,
@@ -93,7 +73,6 @@ BatchSpread spread_of_batches(const TransportResult& result, const TargetAim& ai
     }
     spread.freedom = effective_freedom(all.products, batches);
     spread.direct_variance = all.direct_variance;
-    spread.reflected_share = reflected_share(result, workers);
     return spread;
 }
 
@@ -130,7 +109,6 @@ void report(const TransportErrors& errors, const BatchSpread& spread, const Need
     solution.missed = errors.missed + errors.missed_by_shadow_rays;
     solution.error_batches = batches;
     solution.effective_freedom = believed_freedom(solution.effective_freedom, spread.freedom);
-    solution.reflected_share = spread.reflected_share;
     std::uint64_t unlit = 0;
     for (std::uint32_t i = 0; i < errors.needs_rays.size(); ++i)
         unlit += !errors.needs_rays[i] && needs.power(i);

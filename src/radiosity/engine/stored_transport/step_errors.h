@@ -22,8 +22,6 @@ struct BatchSpread {
     double direct_variance = 0; ///< of the light by shadow rays: sum over patches, as Solution's
     /// The same by patch, as if each were of the target; -1 where it has no shadow rays.
     std::vector<double> direct_variances;
-    /// Solution::reflected_share; nothing where the batches do not differ.
-    std::optional<double> reflected_share;
 };
 
 [[nodiscard]] BatchSpread spread_of_batches(const TransportResult& result, const TargetAim& aim,

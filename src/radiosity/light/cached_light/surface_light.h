@@ -11,13 +11,6 @@ namespace hemilux {
 class IrradianceCells;
 class Mesh;
 
-/// Returns whether a point at a distance is so near that its irradiance is not taken for the mean
-/// over a square of this side, which would be seen under a wide angle.
-[[nodiscard]] inline bool is_near(double distance, double side) {
-    constexpr double sides = 1.5;
-    return distance < sides * side;
-}
-
 class SurfaceLight {
   public:
     /// `light` is what patches send. All that is referred to must outlive this object; without
@@ -26,11 +19,12 @@ class SurfaceLight {
         : mesh_(mesh), patches_(light), cells_(cells) {}
 
     [[nodiscard]] const PatchLight& of_patches() const { return patches_; }
-    /// What is known of the irradiance of a point [W/m2], and the side of the square for which it
-    /// is the mean (local units).
+    /// What is known of the irradiance of a point [W/m2].
     struct Irradiance {
         Vec3 value, of_patch; ///< with what walks found, and without
-        double side;
+        /// The distance below which it is not read (local units): what it is the mean of would be
+        /// seen under a wide angle, with its edges and its noise.
+        double near;
     };
     /// Returns that of a point (local frame) of a patch. It is 0 in channels that the patch does
     /// not reflect, unless walks found any.

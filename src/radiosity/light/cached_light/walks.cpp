@@ -88,11 +88,11 @@ void Walks::trace(std::uint32_t begin, std::uint32_t end, Work& work,
         const Vec3& rho = here.reflectance;
         if (rho == Vec3(0.0))
             continue;
-        const auto [irradiance, of_patch, side] = light_.irradiance(patch, point);
+        const auto [irradiance, of_patch, near] = light_.irradiance(patch, point);
         work.vertices[v].found += rho * irradiance;
         if (is_start) {
             found[v].read += rho * irradiance;
-            found[v].is_near = is_near(glm::distance(point, work.vertices[v].at.position), side);
+            found[v].is_near = glm::distance(point, work.vertices[v].at.position) < near;
         }
         const std::uint64_t seed = hash_words({work.vertices[v].seed, 1});
         Rng rng(hash_words({work.vertices[v].seed, 2}));

@@ -34,8 +34,8 @@ struct WalkLight {
     Vec3 direct{0.0};   ///< light of emitters
     Vec3 read{0.0};     ///< reflected light, as the first ray reads it
     Vec3 residual{0.0}; ///< what that lacks, an unbiased sample
-    /// Whether the first ray ends so near that gathers do not read what is known there
-    /// (is_near), but walk on themselves.
+    /// Whether the first ray ends so near that gathers do not read what is known there, but walk
+    /// on themselves.
     bool is_near = false;
 };
 

@@ -100,7 +100,7 @@ void GatherInParts::read_patches(std::span<const SurfacePoint> points, const Ray
             const Colours here = colours_at(mesh_, on, point);
             const SurfaceLight::Irradiance arriving = light_.irradiance(patch, point);
             Vec3 sent = emitters_.contains(patch) ? Vec3(0.0) : here.emission;
-            if (is_near(hit.t, arriving.side)) {
+            if (hit.t < arriving.near) {
                 light.irradiance += sent / rays_there;
                 paths_.begin_at({point, on.normal, on.facet, patch},
                                 {.seed = hash_words({rays.seed, begin + k}),

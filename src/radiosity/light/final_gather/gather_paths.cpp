@@ -60,7 +60,7 @@ GatherPaths::Met GatherPaths::where_met(const PathRays& rays, std::size_t k,
 }
 
 bool GatherPaths::is_near(const Met& met, unsigned bounce) const {
-    return bounce < max_bounces && hemilux::is_near(met.distance, met.arriving.side);
+    return bounce < max_bounces && met.distance < met.arriving.near;
 }
 
 bool GatherPaths::end_ray(const PathRays::State& ray, const Met& met, unsigned bounce,

@@ -103,7 +103,8 @@ SquaredError ErrorAtPoints::find(const OtherError& other, std::size_t points_per
     Rounds rounds, noise;
     double uncertainty = 0;
     for (std::uint64_t number = 0;; ++number) {
-        const Products sums = products(points, gathers_at_point, hash_words({options.seed, number}));
+        const Products sums =
+            products(points, gathers_at_point, hash_words({options.seed, number}));
         if (interrupted_)
             return {};
         rounds.add(sums.error / size_);

@@ -68,10 +68,6 @@ struct Solution {
     /// than from standard_error, which does not say what patches err together. Where level_freedom
     /// is finite, they are those of the error besides that of the level.
     std::optional<double> effective_freedom;
-    /// The share of the variance besides that of the level that is left after one more reflection
-    /// [-], as far as known. It is little where patches err independently, since a reflection
-    /// averages.
-    std::optional<double> reflected_share;
     EnergyBalance energy;
     std::uint32_t steps = 0;
     std::uint64_t rays_energy = 0;

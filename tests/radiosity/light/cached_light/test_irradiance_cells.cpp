@@ -4,6 +4,7 @@
 #include "radiosity/light/cached_light/surface_light.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "support/scenes.h"
+#include "support/solve.h"
 
 #include "support/catch.h"
 

@@ -41,7 +41,7 @@ struct Panels {
 
     Model model{scene()};
     std::vector<Vec3> light = radiosity();
-    GatherInParts gather{model.mesh, model.bvh, PatchLight(light)};
+    GatherInParts gather{model.mesh, model.bvh, SurfaceLight(model.mesh, PatchLight(light))};
     /// At x = -.3 to .3, which aim by the chances of the first.
     std::vector<SurfacePoint> points;
 

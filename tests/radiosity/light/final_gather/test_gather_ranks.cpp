@@ -42,9 +42,9 @@ TEST_CASE("Ranks share the gathers that find how far light is off within patches
         CHECK(found[r].uncertainty == alone.uncertainty);
         CHECK(found[r].points == alone.points);
         CHECK(found[r].rays == alone.rays);
-        CHECK(3 * rays[r] > alone.rays); // about a half
+        CHECK(3 * rays[r] > rays[0] + rays[1]); // about a half
     }
-    CHECK(rays[0] + rays[1] == alone.rays);
+    CHECK(rays[0] + rays[1] < alone.rays); // the walks are each rank's own
 }
 
 TEST_CASE("What a gather finds is known to all ranks") {

@@ -81,14 +81,6 @@ DivisionError division_error_of(const Model& model, const Solution& solution, st
                           never);
 }
 
-Scene bright_room_with_block() {
-    Scene scene = test::room_with_block();
-    for (Material& material : scene.materials)
-        if (material.reflectance != Vec3(0.0))
-            material.reflectance = Vec3(.8, .7, .6);
-    return scene;
-}
-
 } // namespace
 
 TEST_CASE("the error of a division is that against light in closed form", "[slow]") {
@@ -291,37 +283,4 @@ TEST_CASE("the errors of patches add up to that of the division") {
     StopFlag interrupted;
     interrupted.set_wished(true);
     CHECK(patch_error_levels(model.mesh, model.bvh, solution, 1, Workers(0), interrupted).empty());
-}
-
-TEST_CASE("what a reflection leaves of the error of sampling is what gathers are off by") {
-    const double max_edge = GENERATE(1.0, .5);
-    const Model model(bright_room_with_block(), {.max_edge = max_edge});
-    const Method& method = *find_method("stored-transport");
-    const Solution accurate =
-        test::solve(model, method, {}, {.steps = {}, .seconds = {}, .error = .001});
-    const StopFlag never;
-    const auto gathered = [&](const Solution& solution) {
-        FinalGather gather(model.mesh, model.bvh, solution);
-        gather.set_rounds(16);
-        // By the same rays for all solutions.
-        return gather_over(PointsOverSurface(model.mesh), gather, 128, 1, 1, Workers(0), never);
-    };
-    const GatheredAtPoints truth = gathered(accurate);
-    double known = 0, found = 0;
-    constexpr std::uint64_t seeds = 16;
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const Solution solution =
-            test::solve(model, method, {.rays = 256, .seed = seed}, test::steps(1));
-        REQUIRE(solution.reflected_share);
-        known += *solution.reflected_share * *solution.variance;
-        const GatheredAtPoints now = gathered(solution);
-        for (std::size_t k = 0; k < now.points.size(); ++k) {
-            const Vec3 off = model.mesh.material(now.points[k].patch).reflectance *
-                             (now.irradiance[k] - truth.irradiance[k]);
-            found += now.points[k].area * glm::dot(off, off);
-        }
-    }
-    CAPTURE(max_edge, std::sqrt(known / seeds), std::sqrt(found / seeds));
-    CHECK(known < 2 * found);
-    CHECK(found < 2 * known);
 }

@@ -1,4 +1,4 @@
-#include "app/running/point_table.h"
+#include "app/gathering/point_table.h"
 
 #include "io/files/error.h"
 
