@@ -6,12 +6,13 @@
 #include "app/division/default_division.h"
 #include "app/division/whole_error.h"
 #include "app/gathering/gathered_light.h"
+#include "app/gathering/point_table.h"
+#include "app/gathering/target_light.h"
 #include "app/loading/load.h"
 #include "app/loading/reference.h"
 #include "app/memory/memory.h"
 #include "app/rendering/view.h"
 #include "app/running/checkpointing.h"
-#include "app/gathering/point_table.h"
 #include "app/running/run_files.h"
 #include "app/running/run_notes.h"
 #include "app/running/signals.h"
@@ -261,6 +262,11 @@ void add_errors(Statistics& statistics, const Problem& problem, const Divided& d
             settings.ranks->of_each(RankFigures{settings.ranks->work(), statistics.bytes_peak});
 }
 
+LitScene lit_scene(const Problem& problem, const Solution& solution) {
+    return {problem.mesh(), problem.tracer(), solution.radiosity,
+            problem.settings().options.threads};
+}
+
 /// Gathers light where outputs show that; chooses the camera of pictures.
 GatheredLight gather(const Problem& problem, Run& done, const Solution& solution,
                      Statistics& statistics) {
@@ -268,8 +274,7 @@ GatheredLight gather(const Problem& problem, Run& done, const Solution& solution
     if (solution.steps == 0 || !gathers(settings) || !settings.ranks->is_first())
         return {};
     const OnThisRank works_alone(problem.monitor.interrupted);
-    const LitScene lit{problem.mesh(), problem.tracer(), solution.radiosity,
-                       settings.options.threads};
+    const LitScene lit = lit_scene(problem, solution);
     if (has_pictures(settings) && !done.camera)
         done.camera = shown_camera_of(settings.view, lit, settings.verbosity);
     return gather_light(settings, lit, solution, problem.loaded.points,
@@ -322,6 +327,15 @@ int solve(Problem& problem, InterruptGuard& guard, const Stopwatch& started) {
         solution = &*linear;
     }
     add_errors(statistics, problem, divided, *solution, done.seconds);
+    std::optional<Solution> of_target; // with the light of its patches gathered
+    if (gathers_target(problem.settings()) && solution->steps > 0 && done.completed &&
+        problem.settings().ranks->is_first()) {
+        const OnThisRank works_alone(problem.monitor.interrupted);
+        of_target = *solution;
+        gather_target(problem.settings(), lit_scene(problem, *solution), *of_target,
+                      problem.monitor, statistics);
+        solution = &*of_target;
+    }
     const GatheredLight gathered = gather(problem, done, *solution, statistics);
     return write(problem, done, *solution, statistics, gathered, reference, started);
 }
