@@ -28,7 +28,7 @@ std::string describe(const SceneReport& report, const Scene& scene, const SceneS
     if (report.error_division)
         text += info_line("within patches",
                           "light differs by " + percent(*report.error_division) +
-                              " (as they are; solve divides them where it is too much)");
+                              " (as they are; --divide auto divides them where it is too much)");
     return text + describe(report.left_out);
 }
 

@@ -102,7 +102,7 @@ std::string whole_error_note(const SolveSettings& settings, const Statistics& st
     if (!is_asked)
         return "";
     if (statistics.estimated_error_of == ErrorOf::gathered)
-        return statistics.error_bound <= asked
+        return statistics.error_bound <= asked || std::isnan(statistics.estimated_error)
                    ? ""
                    : "the run ended before the error of gathered light was surely below " +
                          percent(asked) + ", for which more rays are needed (--max-rays, --time)";

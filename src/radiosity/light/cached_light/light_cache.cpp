@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t first_walks = 4096;
 
 /// The most parts of a target that take walks in a round: with fewer, the error is known sooner.
-constexpr std::size_t parts_of_round = 256;
+constexpr std::size_t parts_of_round = 96;
 
 /// The least number of walks in a group: their spread is the noise of the group.
 constexpr std::size_t min_of_group = 4;
