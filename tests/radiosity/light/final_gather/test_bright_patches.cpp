@@ -31,7 +31,7 @@ struct Panels {
         facing_down({-1, 1, 0}, .1);
         facing_down({.5, 1, 0}, .25);
         facing_down({1, 2, 0}, .2);
-        facing_down({0, 3, 0}, 4);
+        facing_down({0, 5, 0}, 4); // so far away that rays read it
         scene.faces = 4;
         return scene;
     }
