@@ -45,8 +45,13 @@ if [ "${1-}" = --here ]; then
         echo "aarch64: the same bytes"
     fi
     if command -v em++ >/dev/null; then
+        # GLM in a folder of its own: beside it in /usr/include lie headers of this system.
+        glm=$(dirname "$(find /usr/lib /usr/share -name glmConfig.cmake | head -1)")
+        mkdir -p "$work$glm" "$work/usr/include"
+        cp "$glm"/*.cmake "$work$glm"
+        cp -r /usr/include/glm "$work/usr/include"
         build emscripten "-DCMAKE_TOOLCHAIN_FILE=$(em-config EMSCRIPTEN_ROOT)/cmake/Modules/Platform/Emscripten.cmake" \
-            -DCMAKE_CXX_FLAGS=-fexceptions -Dglm_DIR="$(dirname "$(find /usr/lib /usr/share -name glmConfig.cmake | head -1)")"
+            -DCMAKE_CXX_FLAGS=-fexceptions -Dglm_DIR="$work$glm"
     fi
     exit 0
 fi
