@@ -50,6 +50,8 @@ if [ "${1-}" = --here ]; then
         mkdir -p "$work$glm" "$work/usr/include"
         cp "$glm"/*.cmake "$work$glm"
         cp -r /usr/include/glm "$work/usr/include"
+        # em++ minifies with a module of Debian's, which no other node looks for there.
+        export NODE_PATH="${NODE_PATH:+$NODE_PATH:}/usr/share/nodejs"
         build emscripten "-DCMAKE_TOOLCHAIN_FILE=$(em-config EMSCRIPTEN_ROOT)/cmake/Modules/Platform/Emscripten.cmake" \
             -DCMAKE_CXX_FLAGS=-fexceptions -Dglm_DIR="$work$glm"
     fi
