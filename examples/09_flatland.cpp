@@ -88,7 +88,7 @@ std::vector<double> changes_of_view(const Segment& segment, const std::vector<Ve
             if (share > 0 && share < 1)
                 at.push_back(share);
         }
-    std::ranges::sort(at);
+    std::sort(at.begin(), at.end());
     return at;
 }
 
@@ -115,7 +115,8 @@ std::vector<double> exact_row(const std::vector<Segment>& scene, std::size_t i) 
             if (glm::dot(corner - middle, from.normal()) > 1e-12)
                 seen.push_back({glm::dot(glm::normalize(corner - middle), from.tangent()),
                                 glm::distance(corner, begin) - glm::distance(corner, end)});
-        std::ranges::sort(seen, {}, &Seen::sine);
+        std::sort(seen.begin(), seen.end(),
+                  [](const Seen& a, const Seen& b) { return a.sine < b.sine; });
         for (std::size_t s = 0; s + 1 < seen.size(); ++s) {
             const double sine = .5 * (seen[s].sine + seen[s + 1].sine);
             const Vec2 direction =

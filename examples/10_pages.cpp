@@ -11,10 +11,10 @@
 #include "radiosity/paper/scene/mesh.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 
 using namespace hemilux;
 
@@ -47,11 +47,14 @@ Scene furnace(std::uint32_t n) {
 std::uint64_t hash_of(const std::vector<Vec3>& radiosity) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const Vec3& B : radiosity)
-        for (int c = 0; c < 3; ++c)
+        for (int c = 0; c < 3; ++c) {
+            std::uint64_t bits;
+            std::memcpy(&bits, &B[c], sizeof bits);
             for (int byte = 0; byte < 8; ++byte) {
-                hash ^= std::bit_cast<std::uint64_t>(B[c]) >> (8 * byte) & 0xff;
+                hash ^= bits >> (8 * byte) & 0xff;
                 hash *= 0x100000001b3;
             }
+        }
     return hash;
 }
 

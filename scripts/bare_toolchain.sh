@@ -45,8 +45,18 @@ if [ "${1-}" = --here ]; then
         echo "aarch64: the same bytes"
     fi
     if command -v em++ >/dev/null; then
+        # GLM in a folder of its own: beside it in /usr/include lie headers of this system.
+        glm=$(dirname "$(find /usr/lib /usr/share -name glmConfig.cmake | head -1)")
+        mkdir -p "$work$glm" "$work/usr/include"
+        cp "$glm"/*.cmake "$work$glm"
+        cp -r /usr/include/glm "$work/usr/include"
+        # em++ minifies with a module of Debian's, which no other node looks for there.
+        export NODE_PATH="${NODE_PATH:+$NODE_PATH:}/usr/share/nodejs"
+        # Programs of this em++ take a node that has `fetch` for a browser.
+        export NODE_OPTIONS=--no-experimental-fetch
         build emscripten "-DCMAKE_TOOLCHAIN_FILE=$(em-config EMSCRIPTEN_ROOT)/cmake/Modules/Platform/Emscripten.cmake" \
-            -DCMAKE_CXX_FLAGS=-fexceptions -Dglm_DIR="$(dirname "$(find /usr/lib /usr/share -name glmConfig.cmake | head -1)")"
+            -DCMAKE_CXX_FLAGS=-fexceptions -Dglm_DIR="$work$glm" \
+            "-DCMAKE_EXE_LINKER_FLAGS=-sNODERAWFS=1 -sALLOW_MEMORY_GROWTH=1"
     fi
     exit 0
 fi

@@ -41,7 +41,7 @@ ClippedPolygon clip_to_horizon(const std::array<Vec3, 4>& corners) {
     if (!(std::abs(volume) > 0))
         return result;
     std::array<Vec3, 4> clean;
-    std::ranges::transform(corners, clean.begin(), off_rounding);
+    std::transform(corners.begin(), corners.end(), clean.begin(), off_rounding);
     const auto add = [&](const Vec3& v) {
         if (result.size < 5)
             result.vertex[static_cast<std::size_t>(result.size++)] = v;

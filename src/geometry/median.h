@@ -29,9 +29,11 @@ std::size_t halve_at_median(std::span<std::uint32_t> numbers, const CentreOf& ce
         return extent > 0 ? std::floor(steps * along + offset) : 0;
     };
     const std::size_t half = numbers.size() / 2;
-    std::ranges::nth_element(
-        numbers, numbers.begin() + static_cast<std::ptrdiff_t>(half), {},
-        [&](std::uint32_t number) { return std::pair(place(number), number); });
+    const auto precedes = [&](std::uint32_t a, std::uint32_t b) {
+        return std::pair(place(a), a) < std::pair(place(b), b);
+    };
+    std::nth_element(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(half),
+                     numbers.end(), precedes);
     return half;
 }
 

@@ -19,8 +19,8 @@ namespace hemilux {
 
 /// The work that a rank has done for the run so far.
 struct RankWork {
-    std::uint64_t rays = 0;               ///< traced
-    std::uint64_t entries = 0;            ///< of matrices, each as often as it was multiplied
+    std::uint64_t rays = 0;    ///< traced
+    std::uint64_t entries = 0; ///< entries of matrices, each as often as it was multiplied
     std::uint64_t sent = 0, received = 0; ///< bytes
 };
 
@@ -150,7 +150,7 @@ class OwnBlocks {
     void gather_rounds(std::span<std::byte> some, std::size_t bytes_of_block) const;
 
     const Ranks* ranks_;
-    std::size_t count_, index_; ///< of the ranks
+    std::size_t count_, index_; ///< number of ranks, and which of them this is
     std::size_t all_, block_, own_;
 };
 

@@ -114,7 +114,7 @@ class Pool {
 
     std::mutex mutex_;
     std::condition_variable posted_, left_;
-    std::vector<Job*> jobs_; ///< that want helpers
+    std::vector<Job*> jobs_; ///< jobs that want helpers
     std::atomic<std::size_t> open_jobs_{0};
     std::size_t sleeping_ = 0;
     bool ending_ = false;

@@ -37,7 +37,7 @@ class Option {
 
 /// The declaration of an option.
 struct OptionText {
-    std::vector<std::string> names; ///< with their dashes; one without dashes: a positional
+    std::vector<std::string> names; ///< names with their dashes; one without dashes: a positional
     std::string type, help, group;  ///< type: empty where it takes no value
     bool repeatable = false;
     std::vector<std::string> excludes = {}; ///< names of options that it contradicts
@@ -47,7 +47,7 @@ struct OptionText {
 struct CommandText {
     std::string name, description;
     std::vector<OptionText> options;
-    std::string end; ///< of its help
+    std::string end; ///< text after its help
 };
 
 /// A subcommand, or a program without any. Copies mean the same one; all of it, and what options

@@ -24,7 +24,7 @@ struct ConfigEntry {
     std::vector<std::string> values; ///< numbers as they are written; `true` and `false` too
     bool truth = false;              ///< the value is true or false
     bool list = false;               ///< the value is an array of strings; numbers make one value
-    std::size_t line = 0;            ///< from 1
+    std::size_t line = 0;            ///< number of the line, from 1
 };
 
 /// Reads a file. Throws InputError with the line, also where a key stands twice in a table.

@@ -14,7 +14,7 @@ namespace hemilux {
 inline constexpr const char* scene_group = "Scene";
 inline constexpr const char* method_group = "Method";
 inline constexpr const char* output_group = "Outputs";
-inline constexpr const char* own_group = "Of one method"; ///< or of few
+inline constexpr const char* own_group = "Of one method"; ///< a few count too
 
 /// Adds SCENE and, under a heading of their own, the options that change it; returns --max-edge.
 Option add_scene_options(Command command, SceneSettings& scene);

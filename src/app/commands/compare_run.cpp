@@ -129,7 +129,7 @@ class Runner {
     std::unique_ptr<Solver> solver_;
     bool cut_short_ = false;
     double seconds_ = 0;
-    double last_step_ = 0, step_before_ = 0; ///< of the budget
+    double last_step_ = 0, step_before_ = 0; ///< parts of the budget that steps used
     MethodRun result_;
 };
 

@@ -28,7 +28,7 @@ struct MethodRun {
 struct MethodRuns {
     MethodVariant variant;
     std::vector<MethodRun> runs;
-    std::vector<Vec3> radiosity; ///< at the end of the first that has a step [W/m2]
+    std::vector<Vec3> radiosity; ///< light at the end of the first run that has a step [W/m2]
 };
 
 /// The things that the runs have in common; all of them outlive the runs.
@@ -40,8 +40,8 @@ struct Comparison {
     const KnownLight* light; ///< none: errors are those on the patches
     Monitor& monitor;
     const Needs& needs;
-    std::span<const std::string> warnings; ///< of reading the scene
-    double unit;                           ///< of the light on a page [W/m2]
+    std::span<const std::string> warnings; ///< messages of reading the scene
+    double unit;                           ///< unit of the light on a page [W/m2]
 };
 
 /// Runs the methods. `after_step` gets the share of all runs that is done, 0 to 1. `fault` becomes

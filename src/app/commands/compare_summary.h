@@ -22,11 +22,11 @@ struct MethodSummary {
     std::string label;
     double rays = 0, seconds = 0;
     RelativeError error;
-    std::optional<double> total_error; ///< with --total, which the curves and gains are then of
+    std::optional<double> total_error; ///< error with --total; curves and gains are then of it
     double estimated_error = 0;        ///< relative [-]
     std::uint64_t bytes_density = 0;
     std::vector<ErrorCurve> runs_by_seconds, runs_by_rays; ///< true error, or total
-    std::size_t runs = 0;                                  ///< that count
+    std::size_t runs = 0;                                  ///< runs that count
     std::optional<Gain> gain_seconds, gain_rays;
 };
 

@@ -42,20 +42,20 @@ namespace {
 
 /// All that a run reads before it builds anything.
 struct Loaded {
-    SolveSettings settings; ///< with the camera of the scene, where none was given
+    SolveSettings settings; ///< options with the camera of the scene, where none was given
     std::optional<Checkpoint> resumed;
-    std::vector<NamedPoint> points;          ///< of --points
-    std::vector<TargetPoints> target_points; ///< of --for
+    std::vector<NamedPoint> points;          ///< points of --points
+    std::vector<TargetPoints> target_points; ///< points of --for
     LoadedMesh scene;
 };
 
 /// What a solver refers to; it stays where it is while one lives.
 struct Problem {
     Loaded loaded;
-    Monitor& monitor; ///< of the caller
+    Monitor& monitor; ///< the caller's
     Prepared prepared = {};
     std::vector<double> target = {}; ///< SolverInput::target
-    SolveOptions options = {};       ///< with the rays of a step and the end of the run
+    SolveOptions options = {};       ///< options with the rays of a step and the end of the run
 
     [[nodiscard]] const SolveSettings& settings() const { return loaded.settings; }
     [[nodiscard]] const Mesh& mesh() const { return loaded.scene.mesh; }
@@ -70,11 +70,11 @@ struct Run {
     std::unique_ptr<Solver> solver;
     std::vector<StepRow> rows;
     RunNotes notes;
-    std::optional<InputError> fault = {}; ///< in a step; those before it are written
+    std::optional<InputError> fault = {}; ///< fault in a step; the steps before it are written
     bool completed = false;
-    double seconds = 0;                ///< of the solver
-    WriteReport written = {};          ///< after steps
-    std::optional<Camera> camera = {}; ///< of pictures after steps, which the last one shares
+    double seconds = 0;                ///< time of the solver
+    WriteReport written = {};          ///< what was written after steps
+    std::optional<Camera> camera = {}; ///< view of pictures after steps, which the last one shares
 };
 
 InputError as_input_error(const SolveError& error, const Problem& problem) {

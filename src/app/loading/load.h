@@ -39,11 +39,11 @@ struct FileView {
 
 struct LoadedMesh {
     Mesh mesh;
-    MadeTracer made; ///< where the sides of the faces needed one
+    MadeTracer made; ///< tracer, where the sides of the faces needed one
     double seconds_read, seconds_sides;
     std::vector<std::uint32_t> face_lines; ///< ReadResult
     FileView view;
-    std::vector<std::string> warnings; ///< that were logged
+    std::vector<std::string> warnings; ///< warnings that were logged
 };
 
 /// Does all of this and reports what there is to report. Throws InputError for what no method can
@@ -58,7 +58,7 @@ struct LoadedMesh {
 struct Prepared {
     Needs needs; ///< everything with --keep-all
     MadeTracer made;
-    double seconds; ///< with those of the sides
+    double seconds; ///< time with that of the sides
 };
 /// Prepares what solving needs besides the mesh, which must outlive it. Takes over what was made.
 /// Warns where rays will be slow.

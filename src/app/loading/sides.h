@@ -13,7 +13,7 @@ namespace hemilux {
 
 struct SidedMesh {
     Mesh mesh;
-    MadeTracer made; ///< of the mesh; empty with --sides both, which needs none to be divided
+    MadeTracer made; ///< tracer of the mesh; empty with --sides both, which needs none
 };
 
 /// Divides the faces and turns them where --sides says so. Says on stderr what was turned, what

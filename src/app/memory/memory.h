@@ -20,13 +20,13 @@ namespace hemilux {
 
 /// The memory that a run needs at its peak, by parts [bytes].
 struct MemoryNeed {
-    double scene = 0;    ///< as read
+    double scene = 0;    ///< scene as read
     double mesh = 0;     ///< patches
-    double tree = 0;     ///< for the rays
-    double pairs = 0;    ///< of facets in one plane, until they are offset
-    double analysis = 0; ///< which sides face the light, what light may reach
-    double method = 0;   ///< of several, all
-    double pictures = 0; ///< while they are written
+    double tree = 0;     ///< tree for the rays
+    double pairs = 0;    ///< pairs of facets in one plane, until they are offset
+    double analysis = 0; ///< sides that face the light, and what light may reach
+    double method = 0;   ///< the method; of several, all
+    double pictures = 0; ///< pictures while they are written
     /// Returns the peak of all parts [bytes]. The list of patches grows by being copied, before
     /// there is anything else.
     [[nodiscard]] double all() const {

@@ -46,7 +46,7 @@ class PageFile {
     void write_until(std::string_view mark);
 
     AtomicFile file_;
-    std::string_view left_; ///< of the markup
+    std::string_view left_; ///< rest of the markup
 };
 
 } // namespace hemilux

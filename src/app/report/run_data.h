@@ -36,7 +36,7 @@ struct ReportContent {
     std::string command;                        ///< the command line
     Camera camera;                              ///< the first view
     std::optional<double> exposure;             ///< empty: the page chooses one
-    const ReportDensities* densities = nullptr; ///< of methods that have them
+    const ReportDensities* densities = nullptr; ///< densities of methods that have them
 };
 
 /// Returns the JSON. The keys are scene, command, version, machine, centre, materials, groups,
@@ -53,17 +53,17 @@ struct LightOfStep {
 /// A method of a comparison.
 struct ComparedMethod {
     std::string name, label;
-    std::span<const LightOfStep> lights; ///< of its first run, ascending
+    std::span<const LightOfStep> lights; ///< light of its first run, steps ascending
 };
 
 /// The content of a report of a comparison; it refers to what lives in the caller.
 struct ComparisonContent {
     const Mesh& mesh;
     std::span<const Vec3> reference; ///< radiosity [W/m2]
-    double unit;                     ///< of LightOfStep [W/m2]
+    double unit;                     ///< unit of LightOfStep [W/m2]
     std::vector<ComparedMethod> methods;
-    std::span<const StepRow> rows;                 ///< of all runs, as the CSV has them
-    std::vector<PageChart> charts;                 ///< of the errors that are known
+    std::span<const StepRow> rows;                 ///< steps of all runs, as the CSV has them
+    std::vector<PageChart> charts;                 ///< curves of the errors that are known
     std::vector<std::vector<std::string>> summary; ///< table with a row of headings
     std::vector<std::pair<std::string, std::string>>
         facts; ///< name and text of what it all rests on

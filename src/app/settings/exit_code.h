@@ -10,7 +10,7 @@ enum ExitCode : int {
     exit_done = 0,
     exit_usage = 1,
     exit_input = 2,
-    exit_output = 3, ///< or the system failed
+    exit_output = 3, ///< a file cannot be written, or the system failed
     exit_interrupted = 130,
     exit_terminated = 143
 };

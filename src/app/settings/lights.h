@@ -13,8 +13,8 @@ namespace hemilux {
 struct LightSettings {
     bool is_disc = false;
     Vec3 at{0.0}, towards{0.0};   ///< its middle [m]; the direction in which it shines
-    double width = 0, height = 0; ///< of a rectangle; of a disc the radius, twice [m]
-    std::optional<Vec3> watts;    ///< that it emits in all, by channel [W]
+    double width = 0, height = 0; ///< sides of a rectangle; for a disc both are its diameter [m]
+    std::optional<Vec3> watts;    ///< power that it emits in all, by channel [W]
     std::optional<Vec3> emission; ///< [W/m2]; one of the two is given
 };
 inline constexpr const char* light_form =
@@ -24,8 +24,8 @@ inline constexpr const char* light_form =
 [[nodiscard]] std::optional<LightSettings> parse_light(std::string_view text);
 
 struct SunSettings {
-    Vec3 direction;  ///< in which its light goes
-    Vec3 irradiance; ///< of a surface that faces it [W/m2]
+    Vec3 direction;  ///< direction in which its light goes
+    Vec3 irradiance; ///< irradiance of a surface that faces it [W/m2]
 };
 /// Reads "X,Y,Z,IRRADIANCE" or "X,Y,Z,R,G,B"; empty for any other text.
 [[nodiscard]] std::optional<SunSettings> parse_sun(std::string_view text);

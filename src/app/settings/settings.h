@@ -28,7 +28,7 @@ struct SceneSettings {
     std::string path;
     std::string config; ///< path of the file that options were read from; empty: none
     std::vector<Override> emission, reflectance;
-    std::vector<LightSettings> lights; ///< that are added
+    std::vector<LightSettings> lights; ///< lights that are added
     std::vector<SunSettings> suns;
     std::optional<Vec3> sky; ///< its radiosity [W/m2]
     Sides sides = Sides::automatic;
@@ -43,7 +43,7 @@ enum class Verbosity { quiet, normal, verbose };
 /// The view of a picture.
 struct ViewSettings {
     std::optional<Camera> camera;     ///< empty: chosen by the program
-    bool uses_camera_of_scene = true; ///< where there is one and none was given
+    bool uses_camera_of_scene = true; ///< its camera is used where there is one and none was given
     std::optional<int> up;            ///< axis, 1 for y or 2 for z; empty: guessed
     PixelSize size{800, 600};
     std::optional<double> exposure; ///< empty: from the picture
@@ -91,13 +91,13 @@ struct SolveSettings {
     bool divide_given = false; ///< --divide was; else divides_by_default() decides
     bool divide_auto = false;  ///< patches are divided where the light changes within them
     bool whole_error = false;  ///< what patches leave out is found out
-    StopRule stop;             ///< as given; the method's own rule stands in for an empty one
+    StopRule stop;             ///< rule as given; the method's own stands in for an empty one
     ViewSettings view;
     std::vector<Output> outputs;
     Bake bake = Bake::radiosity;                 ///< what mesh files hold
     std::optional<int> lightmap;                 ///< texels along a side, beside .glb files
-    PlyColours ply_colours = PlyColours::linear; ///< and how .ply files do
-    Provenance from;                             ///< of the files
+    PlyColours ply_colours = PlyColours::linear; ///< what .ply files hold
+    Provenance from;                             ///< provenance of the files
     std::vector<GivenOption> given;              ///< options and their values
     /// These are paths; empty: not asked for.
     std::string statistics, steps_log, error_map, report;
@@ -116,7 +116,7 @@ struct SolveSettings {
     static constexpr unsigned bake_rays_per_gather_ray = 64;
     bool gather_pictures = true; ///< else they interpolate the light of the patches
     Verbosity verbosity = Verbosity::normal;
-    const Ranks* ranks = &one_rank(); ///< that solve it together
+    const Ranks* ranks = &one_rank(); ///< processes that solve it together
 
     /// Returns what the method does in this run.
     [[nodiscard]] MethodWork work() const { return method->work_with(options); }
@@ -125,8 +125,8 @@ struct SolveSettings {
 /// The budget of each run of each method: one of the two.
 struct Budget {
     std::optional<double> rays;                 ///< density rays included
-    std::optional<double> seconds;              ///< of its own, preprocessing included
-    static constexpr double default_steps = 64; ///< of the mean rays per patch and step
+    std::optional<double> seconds;              ///< time of its own, preprocessing included
+    static constexpr double default_steps = 64; ///< steps of the mean rays per patch
 };
 
 /// A method as `compare` names it: METHOD-VALUE is the method with this value of one of its
@@ -150,23 +150,23 @@ struct CompareSettings {
     double reference_error = .002; ///< estimated error at which it is good enough, relative [-]
     bool total = false;            ///< errors are those of the light itself, division included
     ViewSettings view;
-    Provenance from;                ///< of the files
+    Provenance from;                ///< provenance of the files
     std::vector<GivenOption> given; ///< options and their values
     std::string folder;
     std::string report;              ///< path of a page; empty: none
     std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`
     Verbosity verbosity = Verbosity::normal;
-    const Ranks* ranks = &one_rank(); ///< that work at it together
+    const Ranks* ranks = &one_rank(); ///< processes that work at it together
 };
 
 struct DensitySettings {
     SceneSettings scene;
-    const Method* method = &method_of(Role::paper); ///< whose hemispheres; or the forerunner's
+    const Method* method = &method_of(Role::paper); ///< method whose hemispheres are shown
     SolveOptions options;                           ///< how they are divided, seed, threads
-    std::optional<std::uint32_t> patch;             ///< whose hemisphere; empty: the largest spread
-    std::uint32_t part = 0;                         ///< of the patch: whose is shown from above
-    std::uint32_t rays = 0;                         ///< energy rays to show in it
-    bool plane = false;                             ///< a cross-section instead (figure 1)
+    std::optional<std::uint32_t> patch; ///< patch to be shown; empty: the largest spread
+    std::uint32_t part = 0;             ///< part of the patch that is shown from above
+    std::uint32_t rays = 0;             ///< energy rays to show in it
+    bool plane = false;                 ///< a cross-section instead (figure 1)
     ViewSettings view;
     std::vector<std::string> outputs; ///< .svg: a hemisphere; .png: mean densities
     std::vector<GivenOption> given;   ///< options and their values
@@ -176,7 +176,7 @@ struct DensitySettings {
 struct FormFactorSettings {
     SceneSettings scene;
     SolveOptions options;      ///< seed, threads, factors
-    std::uint32_t rays = 4096; ///< per patch; a power of two
+    std::uint32_t rays = 4096; ///< rays per patch; a power of two
     std::vector<std::string> outputs;
     std::vector<GivenOption> given; ///< options and their values
     Verbosity verbosity = Verbosity::normal;

@@ -20,11 +20,11 @@ struct ProgressState {
     const char* phase = "";
     std::string topic{};     ///< what it works on; may be empty
     std::uint32_t steps = 0; ///< finished
-    double step_share = 0;   ///< of the present step, 0 to 1
-    double seconds = 0;      ///< since the start
+    double step_share = 0;   ///< share of the present step that is done, 0 to 1
+    double seconds = 0;      ///< time since the start
     std::uint64_t rays = 0;
-    std::uint64_t rays_of_steps = 0;                                   ///< of the finished ones
-    std::uint64_t rays_of_step = 0;                                    ///< of the present one
+    std::uint64_t rays_of_steps = 0; ///< rays of the finished ones
+    std::uint64_t rays_of_step = 0;  ///< rays of the present one
     double estimated_error = std::numeric_limits<double>::quiet_NaN(); ///< NaN: not known yet
 };
 
@@ -69,7 +69,7 @@ class Progress {
     ShareDone share_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     ProgressState state_;
-    std::uint64_t rays_before_step_ = 0; ///< by the monitor
+    std::uint64_t rays_before_step_ = 0; ///< the monitor's count
     std::mutex mutex_;
     std::condition_variable wake_;
     bool closed_ = false, drawn_ = false;

@@ -11,7 +11,7 @@ namespace hemilux {
 
 struct OptionUse {
     std::string_view name;
-    bool is_used;     ///< in this run
+    bool is_used;     ///< this run reads it
     std::string what; ///< it is for
 };
 

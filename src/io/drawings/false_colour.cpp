@@ -13,8 +13,8 @@ namespace hemilux {
 namespace {
 
 constexpr double within_scale = 0.99;
-constexpr double min_scale = 1e-6;    ///< where pictures do not differ
-constexpr double rounding = 1 + 1e-6; ///< of floats
+constexpr double min_scale = 1e-6;    ///< scale where pictures do not differ
+constexpr double rounding = 1 + 1e-6; ///< rounding of floats
 
 /// One side of the scale, from white outwards.
 using Stops = std::array<glm::vec3, 4>;

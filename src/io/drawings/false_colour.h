@@ -22,7 +22,7 @@ namespace hemilux {
 /// One scale for all pictures that are compared. It is even about 0, where pictures that are nearly
 /// right differ, and logarithmic beyond, for those that are far off.
 struct DifferenceScale {
-    double typical = 1; ///< up to about here even
+    double typical = 1; ///< limit of the even part, about
     double most = 1;    ///< the darkest colours; at least `typical`
 
     /// Returns the place of a difference on the scale, from -1 to 1.

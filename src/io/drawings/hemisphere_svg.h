@@ -32,8 +32,8 @@ struct HemisphereDrawing {
         Polygon outline;
         std::vector<DrawnTriangle> triangles;
     };
-    std::vector<Part> parts = {};          ///< where there are several
-    std::string unit = "surfaces per ray"; ///< of densities
+    std::vector<Part> parts = {};          ///< parts, where there are several
+    std::string unit = "surfaces per ray"; ///< unit of densities
 };
 
 /// The places of the two views [pixels]; seen from above the dome fills its circle.

@@ -9,8 +9,8 @@ namespace hemilux {
 
 namespace {
 
-constexpr double min_ratio = 4;       ///< of the ends of an axis
-constexpr double margin_share = 0.04; ///< at each end, as a share of the range
+constexpr double min_ratio = 4;       ///< ratio of the ends of an axis
+constexpr double margin_share = 0.04; ///< margin at each end, as a share of the range
 constexpr double decades_for_all = 2; ///< longer axes have labels at powers of ten alone
 constexpr double max_tick_labels = 7;
 

@@ -17,7 +17,7 @@ class Mesh;
 /// in local units.
 struct PlaneSection {
     std::array<Vec2, 2> end; ///< x and z of a patch that the plane y = 0 cuts, at z >= 0
-    bool own;                ///< of the patch under the hemisphere
+    bool own;                ///< it belongs to the patch under the hemisphere
 };
 
 /// Returns what the plane y = 0 of a patch's hemisphere over `centre` cuts.

@@ -19,13 +19,13 @@ struct Dot {
 struct Panel {
     std::string x_label;
     std::vector<MeanCurve> curves;           ///< one per name of the chart; may be empty
-    std::vector<std::vector<Dot>> dots = {}; ///< of each curve; none: empty
+    std::vector<std::vector<Dot>> dots = {}; ///< dots of each curve; none: empty
 };
 
 struct Chart {
     std::string title;
     std::string y_label;
-    std::vector<std::string> names; ///< of the curves, for the legend
+    std::vector<std::string> names; ///< names of the curves, for the legend
     std::vector<Panel> panels;
 };
 

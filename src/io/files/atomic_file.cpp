@@ -53,7 +53,7 @@ std::atomic<bool> no_files{false};
 /// only looking again and again never misses it.
 class Wait {
   public:
-    static constexpr int milliseconds = 20; ///< of a pause
+    static constexpr int milliseconds = 20; ///< length of a pause
 
     /// Returns whether to give the wait up; it must be called before each pause.
     [[nodiscard]] bool is_over() {

@@ -38,7 +38,7 @@ class AtomicFile {
     void sync_folder() const;
     [[noreturn]] void fail(const char* action) const;
 
-    std::string path_;      ///< as the user named it, for messages
+    std::string path_;      ///< path as the user named it, for messages
     std::string target_;    ///< links resolved
     std::string temporary_; ///< empty when written directly
     std::string buffer_;

@@ -12,7 +12,7 @@ namespace hemilux {
 /// A regular file. Where it does not exist yet, device and inode are those of its folder.
 struct FileIdentity {
     std::uint64_t device = 0, inode = 0;
-    std::string name; ///< in its folder; empty where the file exists
+    std::string name; ///< name in its folder; empty where the file exists
     auto operator<=>(const FileIdentity&) const = default;
 };
 

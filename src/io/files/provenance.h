@@ -9,7 +9,7 @@ namespace hemilux {
 /// A record that is written into files that have a place for it. It holds what the content depends
 /// on and nothing else, so that the same result has the same bytes.
 struct Provenance {
-    std::string program; ///< with its version
+    std::string program; ///< program with its version
     std::string command; ///< the command line
     std::uint64_t seed = 0;
 };

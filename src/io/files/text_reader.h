@@ -11,7 +11,7 @@
 
 namespace hemilux {
 
-inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; ///< of UTF-8
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; ///< mark of UTF-8
 
 /// Returns the content of a text file without its byte order mark. Throws InputError for what is no
 /// such file: a directory, a device, UTF-16, anything with a NUL byte (where reading ends).
@@ -19,8 +19,8 @@ inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; ///< of UTF-
 
 struct Statement {
     std::string_view keyword;
-    std::string_view rest; ///< without blanks around it; a comment is still there
-    std::size_t line = 0;  ///< where it begins, from 1
+    std::string_view rest; ///< rest without blanks around it; a comment is still there
+    std::size_t line = 0;  ///< line where it begins, from 1
 };
 
 /// Reads the three numbers that a statement begins with. Throws InputError for anything else.

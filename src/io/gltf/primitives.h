@@ -39,7 +39,7 @@ class TriangleReader {
     void number_points(Triangles& triangles, std::size_t vertices);
 
     Buffers& buffers_;
-    std::vector<std::uint32_t> point_of_; ///< by vertex; none but while points are numbered
+    std::vector<std::uint32_t> point_of_; ///< points by vertex; none but while points are numbered
     std::vector<std::uint32_t> used_;     ///< vertices by point
 };
 

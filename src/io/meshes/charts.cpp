@@ -170,7 +170,7 @@ std::vector<LightmapChart> find_charts(const Mesh& mesh, int size) {
 ChartCorners divide_by_charts(const Mesh& mesh, const CornerClasses& classes,
                               const std::vector<LightmapChart>& charts) {
     struct Last {
-        std::uint32_t chart = none, number = 0; ///< in which a class was met last, as which
+        std::uint32_t chart = none, number = 0; ///< chart that met a class last; as which class
     };
     ChartCorners divided;
     divided.classes.of_patch.resize(mesh.patches().size());

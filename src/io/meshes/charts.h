@@ -21,8 +21,8 @@ inline constexpr int gutter = 2;
 struct LightmapChart {
     Vec3 along, across;        ///< unit, in the plane, local frame
     Vec2 low{0.0}, high{0.0};  ///< extent along both, local frame
-    int column = 0, row = 0;   ///< of the texel in whose middle `low` lies
-    int columns = 0, rows = 0; ///< from there to the texel in whose middle `high` lies
+    int column = 0, row = 0;   ///< place of the texel in whose middle `low` lies
+    int columns = 0, rows = 0; ///< texels from there to the one in whose middle `high` lies
     std::vector<std::uint32_t> patches;
 
     /// Returns the place of a point in texels, from the corner of the picture. The middle of the
@@ -44,7 +44,7 @@ struct LightmapTooSmall : std::runtime_error {
 /// Classes of corners, divided where charts meet.
 struct ChartCorners {
     CornerClasses classes;
-    std::vector<std::uint32_t> class_of; ///< before the division
+    std::vector<std::uint32_t> class_of; ///< class before the division
     std::vector<Vec2> place;             ///< LightmapChart::place()
 };
 [[nodiscard]] ChartCorners divide_by_charts(const Mesh& mesh, const CornerClasses& classes,

@@ -27,7 +27,7 @@ constexpr std::size_t texcoord_bytes = 2 * sizeof(float);
 struct Part {
     std::uint32_t group;
     std::vector<std::uint32_t> vertices; ///< classes of corners
-    std::vector<std::uint32_t> indices;  ///< of vertices, three a triangle
+    std::vector<std::uint32_t> indices;  ///< indices of vertices, three a triangle
 };
 
 /// The vertices of a group are numbered as they first occur in it.

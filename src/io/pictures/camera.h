@@ -40,7 +40,7 @@ class CameraRays {
 /// The first surface that a ray of a picture shows. The backs of one-sided facets are looked
 /// through, so that an interior can be seen from outside.
 struct Visible {
-    Hit hit; ///< with t along the ray
+    Hit hit; ///< hit with t along the ray
     std::uint32_t patch;
     std::uint32_t backs; ///< facets looked through
 };

@@ -11,9 +11,9 @@ namespace hemilux {
 
 /// One number per pixel, row by row from the top left.
 struct ExrChannel {
-    std::string name; ///< with its layer: "error.R"; at most 31 letters
+    std::string name; ///< name with its layer: "error.R"; at most 31 letters
     enum class Kind { number, whole } kind = Kind::number;
-    std::vector<std::uint32_t> bits; ///< of a float, or the whole number itself
+    std::vector<std::uint32_t> bits; ///< bits of a float, or the whole number itself
 };
 
 /// Appends the three channels `layer`.R, .G and .B, or R, G and B for a layer without a name.

@@ -34,8 +34,8 @@ class CornerTree {
     static constexpr std::size_t corners_per_leaf = 8;
     struct Node {
         Vec2 low, high;
-        std::uint32_t begin, end; ///< of numbers_
-        std::uint32_t there;      ///< how many of these are
+        std::uint32_t begin, end; ///< range of numbers_
+        std::uint32_t there;      ///< number of these that are there
     };
     void build_node(std::size_t node, std::size_t begin, std::size_t end);
     [[nodiscard]] bool search(std::size_t node, const std::array<Vec2, 3>& triangle,
@@ -44,8 +44,8 @@ class CornerTree {
     std::span<const Vec2> corners_;
     std::vector<std::uint32_t> numbers_;
     std::vector<Node> nodes_;         ///< children of k: 2 k + 1, 2 k + 2
-    std::vector<std::uint32_t> leaf_; ///< by corner: its leaf, or none
-    std::vector<std::uint8_t> there_; ///< by corner
+    std::vector<std::uint32_t> leaf_; ///< leaf of each corner, or none
+    std::vector<std::uint8_t> there_; ///< marks by corner
     mutable std::uint64_t visits_ = 0;
 };
 

@@ -37,7 +37,7 @@ class EarClipper {
     enum class Turn : std::uint8_t { left, straight, right, back };
     struct Node {
         std::uint32_t previous, next;
-        std::uint32_t version = 0; ///< of its triangle; entries of the queue with another are void
+        std::uint32_t version = 0; ///< version of its triangle; the queue may hold void ones
         Turn turn = Turn::straight;
         bool cut = false;
     };

@@ -21,8 +21,8 @@ struct Checkpoint {
     /// Options that the result depends on, as on the command line: name and value.
     std::vector<std::pair<std::string, std::string>> options;
     std::uint64_t scene = 0;   ///< scene_hash()
-    double seconds = 0;        ///< of the solver so far [s]
-    std::vector<StepRow> rows; ///< of the steps log so far
+    double seconds = 0;        ///< time of the solver so far [s]
+    std::vector<StepRow> rows; ///< rows of the steps log so far
     std::string state;         ///< Solver::save()
 };
 

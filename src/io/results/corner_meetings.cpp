@@ -160,8 +160,8 @@ class SideSearch {
     }
 
     const Mesh& mesh_;
-    std::vector<std::array<std::uint32_t, 4>> points_; ///< of the corners of each patch
-    std::vector<std::uint32_t> first_patch_;           ///< of each facet
+    std::vector<std::array<std::uint32_t, 4>> points_; ///< points of the corners of each patch
+    std::vector<std::uint32_t> first_patch_;           ///< first patch of each facet
     std::unordered_map<Vec3, std::uint32_t, PositionHash> point_at_;
     std::vector<PointOnSide> found_;
 };

@@ -16,9 +16,9 @@ class Mesh;
 /// A row of a file of points, in world units [m].
 struct NamedPoint {
     Vec3 position;
-    Vec3 given_normal; ///< as in the file
+    Vec3 given_normal; ///< normal as in the file
     Vec3 normal;       ///< unit
-    std::size_t line;  ///< in the file
+    std::size_t line;  ///< line in the file
 };
 
 /// Reads rows of six numbers x,y,z,nx,ny,nz with commas or blanks between them. A # begins a

@@ -11,7 +11,7 @@ namespace hemilux {
 struct SceneReport {
     SceneInfo info;
     std::optional<Orientation> sides; ///< empty: not looked for
-    std::size_t patches = 0;          ///< as divided
+    std::size_t patches = 0;          ///< patches as divided
     std::vector<LeftOut> left_out;    ///< what the scene does not need
     std::vector<std::string> warnings;
     /// The error of the light because it changes within patches, relative to the light; empty: not

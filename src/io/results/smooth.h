@@ -39,9 +39,9 @@ struct BetweenClasses {
 struct CornerClasses {
     std::vector<std::array<std::uint32_t, 4>>
         of_patch;                        ///< class of each corner; triangle: [3] == [2]
-    std::vector<Vec3> position;          ///< of each class, local frame
+    std::vector<Vec3> position;          ///< place of each class, local frame
     std::vector<BetweenClasses> between; ///< the last classes: those of no patch's corners
-    std::vector<Outline> outlines;       ///< in the order of patches
+    std::vector<Outline> outlines;       ///< outlines in the order of patches
 };
 
 [[nodiscard]] CornerClasses find_corner_classes(const Mesh& mesh);

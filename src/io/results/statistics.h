@@ -14,7 +14,7 @@ namespace hemilux {
 
 /// An option of the command line or of a file of options, in the order of --help.
 struct GivenOption {
-    std::string name;                ///< with its dashes, or SCENE
+    std::string name;                ///< name with its dashes, or SCENE
     std::vector<std::string> values; ///< none: a flag
 };
 
@@ -43,27 +43,27 @@ struct Statistics {
     double seconds_density = unknown, seconds_solve = unknown;
     double seconds_divide = 0; ///< rough solutions and points, to divide patches by
     std::uint64_t rays_divide = 0;
-    double seconds_division_error = unknown; ///< to find out error_division
+    double seconds_division_error = unknown; ///< time to find out error_division
     std::uint64_t rays_division_error = 0;
     /// The time between the stages above and below [s]: for what the scene does not need, what is
     /// read besides it, and where light is lost.
     double seconds_analysis = unknown;
-    double seconds_learn = 0;       ///< of the light that gathers read, and of that at points
+    double seconds_learn = 0; ///< learning of the light that gathers read, light at points
     std::uint64_t rays_learn = 0, rays_gather = 0;
-    double seconds_gather = 0;      ///< of pictures unless interpolated
+    double seconds_gather = 0;      ///< gathers of pictures unless interpolated
     double seconds_picture = 0;     ///< all else of pictures: views, interpolation, files
-    double seconds_write = 0;       ///< of tables and meshes
+    double seconds_write = 0;       ///< tables and meshes
     double seconds_total = unknown; ///< all of the seconds above, with those of no stage
     double rays_per_second = unknown;
     std::uint64_t bytes_density = 0;       ///< measured
-    std::uint64_t bytes_transport = 0;     ///< of the rays that `stored-transport` keeps
-    std::uint64_t links = 0;               ///< that `hierarchical` gathers over
+    std::uint64_t bytes_transport = 0;     ///< the rays that `stored-transport` keeps
+    std::uint64_t links = 0;               ///< links that `hierarchical` gathers over
     std::uint64_t bytes_density_paper = 0; ///< 4 (4^(n+1) - 1) / 3 per patch (paper section 6)
-    std::uint64_t bytes_peak = 0;          ///< of the process
+    std::uint64_t bytes_peak = 0;          ///< peak of the process
     double estimated_error = unknown;      ///< relative; of what: see ErrorOf
     ErrorOf estimated_error_of = ErrorOf::patches;
     double estimated_error_uncertainty = unknown; ///< one sigma; NaN before two steps
-    double error_bound = unknown; ///< the error is below it in 19 of 20 runs
+    double error_bound = unknown;                 ///< the error is below it in 19 of 20 runs
     /// The groups, points or camera that the estimated error is of, as they were asked for; empty:
     /// all patches alike. Where there are any, the error of all that has no weight stands beside
     /// it.
@@ -80,7 +80,7 @@ struct Statistics {
     std::vector<LeftOut> left_out;
     /// The figures of each rank, where there are several.
     std::vector<RankFigures> ranks = {};
-    std::string program; ///< with its version, whose defaults hold for options that are not given
+    std::string program; ///< program with its version, whose defaults hold
     std::vector<GivenOption> settings;
 };
 

@@ -42,10 +42,10 @@ struct PatchTable {
 /// A row of the steps log.
 struct StepRow {
     std::string method;
-    std::uint32_t run = 0; ///< which of several runs with different seeds
+    std::uint32_t run = 0; ///< number among several runs with different seeds
     StepRecord record{};
-    std::optional<RelativeError> error{}; ///< against a reference, if there is one
-    std::optional<double> total_error{}; ///< against the light itself (known_light.h), if asked for
+    std::optional<RelativeError> error{}; ///< error against a reference, if there is one
+    std::optional<double> total_error{};  ///< error against the light itself (known_light.h)
 };
 
 /// The names of a row's columns, with commas between them.

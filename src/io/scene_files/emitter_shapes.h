@@ -15,7 +15,7 @@ namespace hemilux {
 /// Faces that shine to their fronts.
 struct EmitterShape {
     std::vector<Vec3> points;                        ///< world units [m]
-    std::vector<std::array<std::uint32_t, 4>> faces; ///< of points; a triangle: [3] == [2]
+    std::vector<std::array<std::uint32_t, 4>> faces; ///< indices of points; a triangle: [3] == [2]
     [[nodiscard]] double area() const;               ///< [m2]
 };
 

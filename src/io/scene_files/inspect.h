@@ -13,11 +13,11 @@
 namespace hemilux {
 
 struct SceneInfo {
-    std::size_t faces = 0;                            ///< in the file
+    std::size_t faces = 0;                            ///< faces in the file
     std::size_t facets = 0, triangles = 0, quads = 0; ///< made of them
     std::size_t vertices = 0, materials = 0, groups = 0;
-    Box bounds;              ///< of the facets [m]
-    double total_area = 0;   ///< of the front sides [m2]
+    Box bounds;              ///< box of the facets [m]
+    double total_area = 0;   ///< area of the front sides [m2]
     Vec3 emitted_power{0.0}; ///< sum of E A [W per channel]
 
     /// Edges of exactly one facet, and those of three or more, vertices at equal positions being

@@ -45,7 +45,7 @@ class MaterialTable {
         std::size_t first_use = 0; ///< line of the OBJ file
         bool used = false;
         std::string redefined_in;              ///< file, which was reported
-        std::string folder;                    ///< of its library
+        std::string folder;                    ///< folder of its library
         std::optional<MtlMaterial> definition; ///< the first
     };
     [[nodiscard]] std::uint32_t index_of(const std::string& name);
@@ -64,7 +64,7 @@ class MaterialTable {
     std::function<void(double bytes)> before_library_;
     std::set<FileIdentity> libraries_read_;
     bool outside_ = false;                   ///< a library outside the scene's folder was reported
-    std::set<std::string> libraries_missed_; ///< which were reported
+    std::set<std::string> libraries_missed_; ///< missing libraries that were reported
     std::unordered_map<std::string, std::uint32_t> index_;
     std::vector<Entry> entries_;
     TextureFiles texture_files_;

@@ -20,14 +20,14 @@ struct MtlTexture {
 
 struct MtlMaterial {
     std::string name;
-    std::size_t line = 0;            ///< of its newmtl
+    std::size_t line = 0;            ///< line of its newmtl
     std::optional<Vec3> reflectance; ///< Kd, each channel >= 0 and possibly 1 or more
     std::optional<Vec3> emission;    ///< Ke, each channel >= 0 [W/m2]
     std::optional<MtlTexture> reflectance_map, emission_map; ///< map_Kd, map_Ke
 };
 
 struct MtlFile {
-    std::vector<MtlMaterial> materials; ///< in the order of the file, also those with equal names
+    std::vector<MtlMaterial> materials; ///< materials as in the file, also with equal names
     /// Names of the files that it refers to, each once. After options such as `-s 2 2 1` every tail
     /// of the line counts as a name, as only some options have a known number of words.
     std::vector<std::string> textures;

@@ -19,8 +19,8 @@ struct ReadResult {
     std::vector<std::string> material_source; ///< "file:line" of each material; "" if from no file
     std::vector<std::string> libraries;       ///< paths of further files that were read
     std::vector<std::string> textures;        ///< paths that are named
-    std::vector<std::uint32_t> face_lines;    ///< where each face stands, from 1; empty: in no line
-    std::size_t degenerate_faces = 0; ///< without area or with fewer than 3 corners; left out
+    std::vector<std::uint32_t> face_lines;    ///< lines of the faces, from 1; empty: in no line
+    std::size_t degenerate_faces = 0; ///< faces without area or with fewer than 3 corners; left out
     std::size_t nonplanar_faces = 0;
     std::size_t concave_faces = 0;
     std::optional<Camera> camera; ///< the first of the file

@@ -48,7 +48,7 @@ class StlReader {
     std::string path_;
     const ReadGuard& guard_;
     std::unordered_map<Vec3, std::uint32_t, PositionHash> vertices_;
-    std::vector<Vec3> corners_; ///< of the facet that is read
+    std::vector<Vec3> corners_; ///< corners of the facet that is read
     std::uint32_t group_ = 0;
     PolygonDivision division_;
     ReadResult result_;

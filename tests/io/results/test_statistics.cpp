@@ -56,6 +56,7 @@ TEST_CASE("statistics are the JSON object of the contract, in its order") {
   "bytes_peak": 1048576,
   "estimated_error": null,
   "estimated_error_uncertainty": null,
+  "error_bound": null,
   "estimated_error_of": "patches",
   "error_sampling": null,
   "error_division": null,
@@ -91,6 +92,9 @@ TEST_CASE("statistics are the JSON object of the contract, in its order") {
     }
   ],
   "seconds_analysis": null,
+  "seconds_learn": 0.0,
+  "rays_learn": 0,
+  "rays_gather": 0,
   "seconds_gather": 0.0,
   "seconds_picture": 0.0,
   "seconds_write": 0.0,

@@ -47,7 +47,7 @@ struct Accessor {
     std::optional<Span> span; ///< none: all zeros
     Component component = Component::float32;
     bool normalized = false;
-    std::size_t count = 0, components = 1; ///< per element
+    std::size_t count = 0, components = 1; ///< numbers of elements, and of components per element
     std::string type;                      ///< such as VEC3
     /// Elements that replace others: their indices, ascending, and values.
     struct Sparse {
@@ -80,7 +80,7 @@ struct Primitive {
     Index position;
     Index indices, material;
     Mode mode = Mode::triangles;
-    std::vector<Index> texcoords; ///< by set
+    std::vector<Index> texcoords; ///< accessors by set
     bool has_colours = false, has_targets = false;
 };
 struct MeshInfo {
@@ -90,7 +90,7 @@ struct MeshInfo {
 
 struct Node {
     std::string name;
-    glm::dmat4 transform{1.0}; ///< to the parent
+    glm::dmat4 transform{1.0}; ///< transform to the parent
     std::vector<std::size_t> children;
     Index mesh, camera, light;
     bool has_skin = false;
@@ -129,7 +129,7 @@ struct Document {
     std::vector<MaterialInfo> materials;
     std::vector<MeshInfo> meshes;
     std::vector<Node> nodes;
-    std::vector<std::size_t> roots; ///< of the scene that is shown
+    std::vector<std::size_t> roots; ///< roots of the scene that is shown
     std::vector<Light> lights;
     std::vector<CameraInfo> cameras;
     /// Images and textures that no material in use refers to may be wrong: they are not looked at.

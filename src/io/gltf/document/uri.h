@@ -9,7 +9,7 @@
 namespace hemilux::gltf {
 
 struct UriContent {
-    std::optional<std::string> bytes; ///< of a data URI
+    std::optional<std::string> bytes; ///< content of a data URI
     std::string file;                 ///< the path of any other
 };
 

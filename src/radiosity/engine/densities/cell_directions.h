@@ -18,8 +18,8 @@ inline constexpr std::uint16_t whole_hemisphere = 0xffff;
 
 /// The meaning of A in A_tr / A_hemi of the paper.
 enum class CellArea {
-    projected_solid_angle, ///< so that Lambert's law holds
-    solid_angle            ///< as printed; biased (docs/paper/decisions.md, D1)
+    projected_solid_angle, ///< this keeps Lambert's law
+    solid_angle            ///< the print's; biased (docs/paper/decisions.md, D1)
 };
 
 /// Returns A_tr / A_hemi of the paper [-]: the share of a diffuse patch's power that a cell of the
@@ -40,7 +40,7 @@ struct DirectionBatch {
     std::size_t size = 0;
 
     std::array<std::uint32_t, room> key_low, key_high, number;
-    std::array<std::uint16_t, room> cell; ///< of Hemisphere::cells(), or whole_hemisphere
+    std::array<std::uint16_t, room> cell; ///< index of Hemisphere::cells(), or whole_hemisphere
     // These are drawn.
     alignas(64) std::array<double, room> u, v;    ///< uniform in (0,1): where to start
     alignas(64) std::array<double, room> x, y, z; ///< unit, z along the normal

@@ -32,7 +32,7 @@ class TreeWalk {
 
   private:
     static constexpr std::int16_t unknown = -1;
-    static constexpr std::size_t max_vertices = 2113; ///< at Hemisphere::max_depth
+    static constexpr std::size_t max_vertices = 2113; ///< number at Hemisphere::max_depth
 
     void ask(std::uint16_t vertex) {
         if (count_[vertex] == unknown)

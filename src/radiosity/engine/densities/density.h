@@ -25,7 +25,7 @@ enum class DensityStore { divided_only, everything };
 
 /// A triangle that is not divided, with the mean of its three vertex counts [surfaces per ray].
 struct DensityLeaf {
-    std::uint16_t cell; ///< of Hemisphere::cells()
+    std::uint16_t cell; ///< index of Hemisphere::cells()
     float density;
 };
 
@@ -35,7 +35,7 @@ struct DensityLeaf {
 
 /// The result of a density ray.
 struct DensityCount {
-    std::uint16_t vertex;  ///< of Hemisphere::vertices()
+    std::uint16_t vertex;  ///< index of Hemisphere::vertices()
     std::uint8_t surfaces; ///< 255: or more
 };
 

@@ -14,7 +14,7 @@ namespace hemilux {
 
 namespace {
 
-constexpr double plane_rounding = 1e-9; ///< of the scene's size: what is nearer to a plane is in it
+constexpr double plane_rounding = 1e-9; ///< distance within a plane, as a share of the size
 constexpr double sampled = -1;          ///< marks an entry
 
 /// Where so many rays are expected hardly any row has none: one in fifty [-].

@@ -40,7 +40,7 @@ class ExactFormFactors {
     /// Finds the pairs of a patch with patches of higher index.
     void find_row(const Mesh& mesh, std::uint32_t patch, std::span<const Box> facet_boxes);
 
-    std::vector<std::vector<Entry>> rows_; ///< by patch, ascending
+    std::vector<std::vector<Entry>> rows_; ///< entries by patch, ascending
 };
 
 } // namespace hemilux

@@ -81,8 +81,8 @@ void ExchangeMatrix::find_lost(std::span<const ExchangeMatrix> batches) {
 
 /// The hits of rays from other ranks' patches on this rank's patches, by rank.
 struct ExchangeMatrix::HitsOfOthers {
-    std::vector<std::vector<RayCounts::Count>> hits; ///< patch after patch that they come from,
-    std::vector<std::vector<std::uint32_t>> sizes;   ///< and how many from each
+    std::vector<std::vector<RayCounts::Count>> hits; ///< hits, patch after patch of that rank
+    std::vector<std::vector<std::uint32_t>> sizes;   ///< number of hits from each such patch
 };
 
 /// Exchanges hits among the ranks. For a patch of another rank, `sizes` says how many hits go

@@ -112,7 +112,7 @@ class ExchangeMatrix {
     std::vector<double> scale_;    ///< g_i
     std::vector<double> per_area_; ///< g_i / A_i
     std::vector<double> self_;     ///< S_ii, which closes the row, not scaled
-    std::vector<double> rays_;     ///< by patch
+    std::vector<double> rays_;     ///< rays by patch
     std::vector<EscapeFraction> lost_;
 };
 

@@ -8,9 +8,9 @@
 namespace hemilux {
 
 enum class FactorKind {
-    rays,    ///< by chance
-    exact,   ///< without chance where patches see each other fully; for small scenes
-    hemicube ///< by the pixels of a hemicube over each patch (Cohen and Greenberg 1985)
+    rays,    ///< samples by chance
+    exact,   ///< no chance where patches see each other fully; for small scenes
+    hemicube ///< pixels of a hemicube over each patch (Cohen and Greenberg 1985)
 };
 
 struct FactorOptions {

@@ -77,7 +77,7 @@ struct HemicubeRow {
         double factor; ///< F_ij [-]
     };
     std::vector<Entry> entries; ///< ascending by patch
-    EscapeFraction lost;        ///< by delta factors
+    EscapeFraction lost;        ///< sum of lost delta factors
 };
 
 /// Returns the row of a patch. The workers share the rays; one of them adds up. The row is void if
@@ -89,7 +89,7 @@ struct HemicubeRow {
 /// The rows of all patches.
 struct HemicubeFormFactors {
     SparseMatrix matrix;
-    std::vector<EscapeFraction> lost; ///< by patch
+    std::vector<EscapeFraction> lost; ///< lost shares by patch
     std::uint64_t rays;
 };
 

@@ -13,9 +13,9 @@ class Mesh;
 
 /// Factors and what follows from them have no unit [-].
 struct MatrixQuality {
-    std::uint64_t entries = 0;  ///< above 0
-    double least = 0, most = 0; ///< of these
-    double closure_mean = 0;    ///< of |row sum - 1 + lost|
+    std::uint64_t entries = 0;  ///< entries above 0
+    double least = 0, most = 0; ///< bounds of these
+    double closure_mean = 0;    ///< mean of |row sum - 1 + lost|
     double closure_most = 0;
     double lost_mean = 0; ///< share of rays that met no patch
     /// The sum of |A_i F_ij - A_j F_ji| over the sum of both terms.

@@ -17,7 +17,7 @@ struct Patch;
 
 struct PairFactor {
     double factor = 0;                            ///< F_from,to [-]
-    double variance = 0;                          ///< of the factor
+    double variance = 0;                          ///< variance of the factor
     std::uint64_t points = 0, rays = 0, hits = 0; ///< not each point needs a ray
 
     /// Sets the factor and its variance from independent batches of so many points each.

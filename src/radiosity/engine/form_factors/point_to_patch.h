@@ -52,7 +52,7 @@ class PairLook {
     const Tracer& tracer_;
     const Patch &from_, &to_;
     PolygonSampler origins_, targets_;
-    double near_; ///< as of look_at [local units]
+    double near_; ///< distance as of look_at [local units]
     bool visibility_;
 };
 

@@ -81,7 +81,7 @@ class RayCounts::Tally {
 
     std::vector<Count> counts_;
     std::vector<std::uint32_t> ends_;
-    std::vector<std::uint32_t> place_; ///< by patch, in the last row: one more than its index, or 0
+    std::vector<std::uint32_t> place_; ///< one more than the index by patch in the last row, or 0
 };
 
 /// The rays of some rows of a block that are not traced yet, and the hits of those before.
@@ -94,7 +94,7 @@ struct RayCounts::RayBatch {
     std::vector<RayGroup> groups;
     std::vector<Ray> rays;
     std::vector<std::uint32_t> receivers;
-    std::uint32_t first_row = 0; ///< of the block
+    std::uint32_t first_row = 0; ///< first row of the block
     Tally tally;
     std::uint64_t traced = 0;
 };

@@ -73,7 +73,7 @@ class RayCounts {
     static constexpr std::uint32_t rows_per_block = 16;
     struct Row {
         std::uint32_t rays = 0, escaped = 0, absorbed = 0;
-        std::uint32_t end = 0; ///< of its counts in its block; 0 where that is another rank's
+        std::uint32_t end = 0; ///< end of its counts in its block; 0 where that is another rank's
     };
     class Tally;
     struct RayBatch;

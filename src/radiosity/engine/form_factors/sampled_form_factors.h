@@ -67,10 +67,10 @@ class SampledFormFactors {
     std::vector<bool> is_emitter_;
     std::uint64_t seed_;
     const Needs& needs_;
-    std::uint32_t rays_ = 0; ///< per patch, so far
+    std::uint32_t rays_ = 0; ///< rays per patch so far
     RayCounts counts_;
     std::vector<EscapeFraction> lost_;
-    std::vector<double> emitter_sum_; ///< per patch and emitter: sum of the samples
+    std::vector<double> emitter_sum_; ///< sum of the samples per patch and emitter
 };
 
 } // namespace hemilux

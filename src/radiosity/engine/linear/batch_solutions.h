@@ -47,7 +47,7 @@ class BatchSolutions {
 
   private:
     SolverInput input_;
-    std::vector<std::vector<Vec3>> radiosity_; ///< by batch and patch [W/m2]
+    std::vector<std::vector<Vec3>> radiosity_; ///< light by batch and patch [W/m2]
     Vec3 absorbed_{0.0}, escaped_{0.0};        ///< power, mean of the batches, local units
     double unsolved_ = 0;                      ///< mean of the batches
 };

@@ -36,8 +36,8 @@ Vec3 is_lit(const Vec3& residual, const Vec3& light, const Vec3& weight) {
 
 /// Sums over patches.
 struct Sums {
-    Vec3 squares{0.0};            ///< of the residual, weighted
-    Vec3 relative{0.0}, lit{0.0}; ///< of the squares of the relative residual; area
+    Vec3 squares{0.0};            ///< squares of the residual, weighted
+    Vec3 relative{0.0}, lit{0.0}; ///< squares of the relative residual; area
 
     Sums& operator+=(const Sums& other) {
         squares += other.squares;

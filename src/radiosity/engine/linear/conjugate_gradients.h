@@ -15,7 +15,7 @@ namespace hemilux {
 
 struct GradientsResult {
     int iterations = 0;
-    double residual = 0;   ///< of the worst channel, relative to the light as below [-]
+    double residual = 0;   ///< residual of the worst channel, relative to the light as below [-]
     bool converged = true; ///< false where the iterations ended at their limit
 };
 

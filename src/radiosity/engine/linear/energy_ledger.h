@@ -23,9 +23,8 @@ struct Transport {
     std::span<const Vec3> emission;    ///< [W/m2 leaving]
     std::span<const Vec3> reflectance; ///< [-]
     std::span<const EscapeFraction> lost;
-    std::span<const double>
-        rays;            ///< that the escape fraction was found with; 0 where there were none
-    bool closed = false; ///< no ray can be lost, as the geometry proves
+    std::span<const double> rays; ///< rays that the escape fraction was found with; 0: none
+    bool closed = false;          ///< no ray can be lost, as the geometry proves
 };
 
 /// Scales `direct` [W/m2 arriving], which comes straight from emitters. Its sum over all patches is

@@ -12,7 +12,7 @@
 namespace hemilux {
 
 struct GmresOptions {
-    double tolerance = 1e-12;      ///< of |b - A x| / |b|
+    double tolerance = 1e-12;      ///< bound of |b - A x| / |b|
     std::size_t restart = 40;      ///< vectors kept at first; more: fewer iterations, more memory
     std::size_t max_restart = 640; ///< vectors kept at most
     std::size_t max_iterations = 2000; ///< the products with A

@@ -136,10 +136,10 @@ class HemisphereStrategy final : public Strategy {
     static constexpr double min_density = 1, min_share = 0.25;
 
     bool printed_;
-    std::vector<double> area_shares_; ///< by cell
+    std::vector<double> area_shares_; ///< shares by cell
     std::unique_ptr<LeafDensities> densities_;
-    AllocatedCells allocated_of_one_surface_; ///< of all patches, where there are no densities_
-    std::vector<AllocatedCells> kept_;        ///< by patch, in small scenes
+    AllocatedCells allocated_of_one_surface_; ///< cells of all patches, without densities_
+    std::vector<AllocatedCells> kept_;        ///< cells by patch, in small scenes
 };
 
 std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisphere& hemisphere,

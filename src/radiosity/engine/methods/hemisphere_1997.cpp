@@ -116,7 +116,7 @@ class Hemisphere1997 final : public Strategy, StepHook, PrivateCells {
     bool printed_;
     Subdivision1997Options numbers_;
     Subdivision1997 subdivision_;
-    int level_ = 1;            ///< of the present step's triangles
+    int level_ = 1;            ///< level of the present step's triangles
     AllocatedCells allocated_; ///< the same for all patches
 };
 

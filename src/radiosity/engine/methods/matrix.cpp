@@ -226,7 +226,7 @@ class MatrixSolver final : public Solver {
     std::vector<SampledFormFactors> factors_;
     std::optional<ExactFormFactors> exact_;
     bool rays_find_emission_ = true; ///< no column has the closed form
-    std::uint32_t rays_ = 0;         ///< per patch and batch
+    std::uint32_t rays_ = 0;         ///< rays per patch and batch
     std::uint32_t rays_of_step_ = 0; ///< those of the step under way
     std::uint64_t traced_ = 0;
 };

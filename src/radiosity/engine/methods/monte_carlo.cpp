@@ -153,10 +153,10 @@ class Shots {
     const StepTask& task_;
     StepResult& result_;
     std::uint64_t shots_ = 0;
-    std::vector<CompensatedSum<Vec3>> unshot_, received_; ///< by patch
+    std::vector<CompensatedSum<Vec3>> unshot_, received_; ///< power by patch
     CompensatedSum<Vec3> absorbed_on_backs_;
     LargestFirst order_;
-    std::vector<std::uint32_t> receivers_; ///< of some of a shot's rays, ray by ray
+    std::vector<std::uint32_t> receivers_; ///< receivers of some of a shot's rays, ray by ray
 };
 
 bool shoot_all(const SolverInput& input, const StepTask& task, StepResult& result) {
@@ -228,7 +228,7 @@ class OneShotSolver final : public Solver {
 
     SolverInput input_;
     MeanOfSteps mean_;
-    Solution start_; ///< before the first shot
+    Solution start_; ///< light before the first shot
     StepResult result_;
     StepTask task_;
     std::optional<Shots> shots_; ///< empty before the pilot

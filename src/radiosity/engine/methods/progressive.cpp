@@ -174,7 +174,7 @@ class ProgressiveSolver final : public Solver {
     }
 
     SolverInput input_;
-    Solution solution_; ///< after the last step
+    Solution solution_; ///< light after the last step
     bool is_one_shot_;
     bool by_hemicubes_; ///< another pass would see the same
     ProgressivePass pass_;

@@ -240,7 +240,7 @@ class StoredTransportSolver final : public Solver {
     TargetAim aim_;
     RayPlan plan_;
     BatchLight light_;
-    StepErrors errors_;    ///< of the last step
+    StepErrors errors_;    ///< errors of the last step
     bool planned_ = false; ///< rays of the present step, which may have been traced in part
     bool drained_ = true;  ///< the rays of the last try have seen a way out for the light
     std::uint64_t traced_ = 0;

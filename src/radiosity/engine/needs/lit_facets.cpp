@@ -126,7 +126,7 @@ class Spread {
     bool two_sided_ = false;
     std::vector<Side> sides_;
     std::vector<bool> lit_;
-    std::vector<std::uint32_t> shining_; ///< since the last round
+    std::vector<std::uint32_t> shining_; ///< facets that began to shine since the last round
     std::size_t looks_ = 0;
     std::uint32_t last_ = 0;
 };

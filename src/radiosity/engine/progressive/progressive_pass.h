@@ -67,18 +67,18 @@ class ProgressivePass {
     SolverInput input_;
     ProgressiveOptions options_;
     double reflecting_area_ = 0;
-    Vec3 mean_reflectance_{0.0}; ///< of that, by area
+    Vec3 mean_reflectance_{0.0}; ///< mean over that, by area
     Vec3 emitted_{0.0};
     std::vector<Vec3> radiosity_, unshot_; ///< B and dB
     LargestFirst brightest_;               ///< unshot power
-    std::vector<Vec3> variance_;           ///< of B by sampling, with what shooters err by
+    std::vector<Vec3> variance_;           ///< variance of B by sampling, with what shooters err by
     std::vector<Vec3> unshot_variance_;    ///< the part of it that is still to be shot
-    std::vector<Vec3> left_to_chance_;     ///< of that, by pairs that were seldom looked at
-    Vec3 power_variance_{0.0};             ///< of the power that all shots have brought
+    std::vector<Vec3> left_to_chance_;     ///< part of that, by pairs that were seldom looked at
+    Vec3 power_variance_{0.0};             ///< variance of the power that all shots have brought
     CompensatedSum<Vec3> absorbed_, escaped_, by_chance_; ///< power, local units
     ShotBalance balance_;
     ShotFactors factors_;
-    std::optional<Hemicube> hemicube_; ///< that shows the factors, where they are not sampled
+    std::optional<Hemicube> hemicube_; ///< view that shows the factors, where they are not sampled
     double rays_per_light_ = 0;
     std::vector<std::uint64_t> hits_;
     std::uint64_t points_ = 0, rays_ = 0, shots_ = 0;

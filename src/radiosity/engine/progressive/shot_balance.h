@@ -32,17 +32,17 @@ struct ShotRays {
 /// share of the shot that arrives.
 struct FactorSum {
     double sum = 0, variance = 0;
-    double at_risk = 0; ///< about the sum of those that were looked at by chance only
-    double points = 0;  ///< of receivers, that were looked from
+    double at_risk = 0; ///< estimated sum of those that were looked at by chance only
+    double points = 0;  ///< points of receivers from which it was looked
 };
 
 /// The shares of the power of a shot, by where they go [-].
 struct ShotShares {
-    double scale = 1;     ///< of all factors
+    double scale = 1;     ///< factor of all factors
     EscapeFraction lost;  ///< what falls elsewhere
     double by_chance = 0; ///< what was neither received nor lost, on average 0
     bool scaled = false;  ///< whether the factors were made to sum up to what arrives
-    double variance = 0;  ///< of what arrives, relative, if they were: an error of all factors
+    double variance = 0;  ///< variance of what arrives, relative: an error of all factors
 };
 
 class ShotBalance {
@@ -56,7 +56,7 @@ class ShotBalance {
     [[nodiscard]] double prior_variance(const FactorSum& factors) const;
 
     bool closed_;
-    ShotRays all_; ///< of all shots: where hardly any is lost, a few rays do not show it
+    ShotRays all_; ///< rays of all shots: where hardly any is lost, a few do not show it
     double shots_ = 0, spread_of_point_ = 0; ///< the latter summed over all shots
 };
 

@@ -17,7 +17,7 @@ namespace hemilux {
 
 /// The form factor from a receiver to the shooter.
 struct ReceiverFactor : PairFactor {
-    double at_risk = 0; ///< about the factor, if it was left to chance whether to look
+    double at_risk = 0; ///< estimate of the factor, if it was left to chance whether to look
     /// The variance that this chance adds, as guessed before any ray. `variance` has it as
     /// measured: right on average, but 0 where nothing was traced.
     double left_to_chance = 0;

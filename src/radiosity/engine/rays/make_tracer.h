@@ -14,14 +14,14 @@ class Mesh;
 /// The number of triangles that lie so near to each other that no tree can separate them: a ray
 /// tests all.
 struct Crowd {
-    std::size_t triangles = 0; ///< around the centre of a facet, in the mean over facets
-    std::uint32_t facet = 0;   ///< with most around it
+    std::size_t triangles = 0; ///< number around the centre of a facet, in the mean over facets
+    std::uint32_t facet = 0;   ///< facet with most around it
 };
 
 struct MadeTracer {
     std::unique_ptr<Tracer> tracer;
     std::optional<BvhQuality> tree; ///< empty where rays test all facets
-    Crowd crowd;                    ///< in the tree
+    Crowd crowd;                    ///< crowd in the tree
 };
 
 /// Makes a tracer, which the mesh must outlive. `tree` is that of Needs. So many `threads` build

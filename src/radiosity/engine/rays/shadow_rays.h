@@ -53,7 +53,7 @@ class ShadowRays {
     std::vector<Ray> rays_;
     std::vector<std::uint32_t> targets_;
     std::vector<Sample> samples_;
-    std::vector<std::uint8_t> blocked_; ///< of those that were traced last
+    std::vector<std::uint8_t> blocked_; ///< results of those that were traced last
 };
 
 } // namespace hemilux

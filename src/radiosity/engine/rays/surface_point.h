@@ -12,7 +12,7 @@ namespace hemilux {
 struct SurfacePoint {
     Vec3 position;       ///< local units
     Vec3 normal;         ///< unit, to the side that receives
-    std::uint32_t facet; ///< that it lies on, or none
+    std::uint32_t facet; ///< facet that it lies on, or none
     /// The patch that it lies on, whose points may choose emitters by the same chances. A point
     /// without one uses its own.
     std::uint32_t patch = none;

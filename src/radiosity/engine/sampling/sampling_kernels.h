@@ -19,7 +19,7 @@ inline constexpr std::size_t max_dimensions = 5;
 /// reversed.
 struct SobolBlockStart {
     std::uint32_t seeds[max_dimensions];
-    std::uint32_t first[max_dimensions]; ///< of the block's first point, not scrambled
+    std::uint32_t first[max_dimensions]; ///< words of the block's first point, not scrambled
 };
 
 /// The xor of any point of a block to the first one.
@@ -62,8 +62,8 @@ struct CellShapes {
 /// The part of a line of rays that a patch owns. A ray stands at each whole number of the line, and
 /// the patch's cells follow each other by running sums.
 struct PatchOnLine {
-    double before, after; ///< where it begins and ends
-    double rays;          ///< for one unit of the sums
+    double before, after; ///< places where it begins and ends
+    double rays;          ///< rays for one unit of the sums
     float all;            ///< the largest sum: cells that end there own all that is left
 };
 

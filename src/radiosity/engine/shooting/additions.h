@@ -13,7 +13,7 @@
 namespace hemilux {
 
 struct Additions {
-    std::span<const Guide* const> guides = {}; ///< in the order of their places
+    std::span<const Guide* const> guides = {}; ///< guides in the order of their places
     MakeAimer make_aimer = nullptr;            ///< nullptr: rays of steps cannot be aimed
 };
 

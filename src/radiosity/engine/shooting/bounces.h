@@ -29,7 +29,7 @@ struct ShootingTools {
     ShootingRules rules;
     Hemisphere hemisphere;
     CellDirections directions;
-    std::vector<Vec2> turns; ///< by patch, Mesh::hemisphere_turn
+    std::vector<Vec2> turns; ///< turns by patch, Mesh::hemisphere_turn
     std::unique_ptr<Strategy> strategy;
 
     /// `depth` is the depth of the hemisphere.
@@ -64,7 +64,7 @@ class Bounces {
     struct RayBatch {
         std::vector<RayGroup> groups;
         std::vector<std::uint32_t> receivers; ///< a patch, `escaped` or `absorbed`, ray by ray
-        std::vector<std::uint16_t> arrivals;  ///< from which of its cells, if the hook learns
+        std::vector<std::uint16_t> arrivals;  ///< cells that rays came from, if the hook learns
     };
 
     /// The power that a patch received in a bounce. It fills one cache line, as rays hit patches in
@@ -114,17 +114,17 @@ class Bounces {
 
     const ShootingTools& tools_;
     SolverInput input_;
-    StepHook* hook_; ///< of the strategy; nullptr: all steps are alike
+    StepHook* hook_; ///< the strategy's; nullptr: all steps are alike
     const StepTask* task_ = nullptr;
 
     // These belong to the current bounce.
     std::vector<std::uint32_t> senders_; ///< patches that hold power, ascending
     double left_ = 0;                    ///< their power, mean of channels
-    std::vector<Vec3> unshot_;           ///< by patch, of senders
+    std::vector<Vec3> unshot_;           ///< power by patch, of senders
     /// The expected number of rays of the senders before sender k, counted from the bounce's random
     /// offset.
     std::vector<double> rays_before_;
-    std::vector<Arrived> received_;  ///< by patch
+    std::vector<Arrived> received_;  ///< power by patch
     std::vector<std::uint64_t> hit_; ///< a bit for each patch that received any
     std::vector<WorkItem> items_;
     std::vector<RayBatch> batches_; ///< kept for their memory

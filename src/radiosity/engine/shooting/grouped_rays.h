@@ -20,7 +20,7 @@ struct RayGroup {
     std::uint32_t patch;
     std::uint16_t cell;
     std::uint32_t cell_first; ///< the number of the cell's first ray among all those of the patch
-    std::uint32_t first;      ///< that of the group's
+    std::uint32_t first;      ///< number of the group's first ray
     std::uint32_t rays;
     /// The power of a ray, Phi_ray / Phi_patch [-]; until the rays are drawn it is Phi_ray /
     /// Phi_tr.
@@ -30,7 +30,7 @@ struct RayGroup {
 /// This is what the rays are drawn from.
 struct RaySource {
     const Mesh& mesh;
-    std::span<const Vec2> turns; ///< by patch, Mesh::hemisphere_turn
+    std::span<const Vec2> turns; ///< turns by patch, Mesh::hemisphere_turn
     const CellDirections& directions;
     const Strategy& strategy;
     RayOrigins origins;
@@ -81,13 +81,13 @@ class GroupedRays {
     std::uint64_t stream_;
     std::vector<Ray>& rays_;
     const PrivateCells* private_; ///< nullptr: the strategy has none
-    std::uint32_t drawn_ = 0;     ///< of the first of groups_
+    std::uint32_t drawn_ = 0;     ///< rays of the first of groups_ that are drawn
     std::uint32_t listed_ = none; ///< the patch of that
-    std::uint64_t key_ = 0;       ///< of that patch's random numbers
+    std::uint64_t key_ = 0;       ///< key of that patch's random numbers
     std::vector<Run> runs_;
     std::vector<OwnCell> own_;
     DirectionBatch batch_;
-    std::optional<PatchStart> start_; ///< of the last patch
+    std::optional<PatchStart> start_; ///< start of the last patch
 };
 
 } // namespace hemilux

@@ -19,7 +19,7 @@ struct Guide {
                                                 const Workers&) = nullptr;
     std::string_view unit = {}; ///< unit of these densities
     MakeStrategy strategy = nullptr;
-    double (*bytes)(int depth, double patches); ///< as Method::bytes
+    double (*bytes)(int depth, double patches); ///< memory, as Method::bytes
 };
 
 /// The option --guide; nullptr: the densities that are counted.

@@ -10,12 +10,12 @@ namespace hemilux {
 /// The points where rays into a cell start; those into the whole hemisphere start anywhere.
 enum class RayOrigins {
     anywhere, ///< uniform over the patch, or over the part that a private cell belongs to
-    centre,   ///< of that: biased (docs/paper/decisions.md, D2)
+    centre,   ///< middle of that: biased (docs/paper/decisions.md, D2)
 };
 
 /// The number of rays that a patch shoots in a bounce.
 enum class RaysPerPatch {
-    by_power,    ///< in proportion to its unshot power, made whole by systematic sampling
+    by_power,    ///< rays in proportion to its unshot power, made whole by systematic sampling
     same_number, ///< N_hemi each, and N_tr rounded: what is due less than half a ray is lost (D10)
 };
 

@@ -19,10 +19,10 @@ namespace hemilux {
 
 /// One step to be solved.
 struct StepTask {
-    std::uint64_t stream; ///< of its random numbers
-    std::uint64_t number; ///< from 1; the pilot belongs to the first
-    double ray_power;     ///< that each ray is to carry on average, mean of channels; or infinite
-    Workers workers;      ///< for this one
+    std::uint64_t stream; ///< stream of its random numbers
+    std::uint64_t number; ///< number from 1; the pilot belongs to the first
+    double ray_power;     ///< mean power that a ray is to carry, mean of channels; or infinite
+    Workers workers;      ///< threads for this one
     std::span<const double> aimed = {};     ///< MeanOfSteps::aimed
     const SeparateRays* separate = nullptr; ///< rays besides those of the strategy
 
@@ -81,7 +81,7 @@ class StepwiseSolver : public Solver {
     struct Ahead {
         StepResult result;
         bool done = false, failed = false;
-        std::exception_ptr failure; ///< where this rank has worked at it
+        std::exception_ptr failure; ///< fault, where this rank has worked at it
     };
     void work_ahead();
     void work_at(std::size_t first, std::size_t every);
@@ -96,7 +96,7 @@ class StepwiseSolver : public Solver {
 
     Workers workers_;
     std::deque<Ahead> ahead_;      ///< the next steps
-    double seconds_per_step_ = 0;  ///< of one thread, when several are worked out; 0: unknown
+    double seconds_per_step_ = 0;  ///< time of one thread, when several are worked out; 0: unknown
     std::vector<Vec3> pilot_;      ///< its radiosity; empty where there was none
     std::unique_ptr<Aimer> aimer_; ///< nullptr: all patches count alike
 };

@@ -28,7 +28,7 @@ struct MethodWork {
     bool pairs = false;          ///< looks from patches to patches
     bool linear_systems = false; ///< solves one for each channel
     bool passes = false;         ///< solves again and again, to take the mean or with more rays
-    bool ends_by_itself = false; ///< after so many steps as it takes: no number of them is usual
+    bool ends_by_itself = false; ///< it takes as many steps as it needs: no number of them is usual
     bool estimates_error = true; ///< else a run ends by itself, and how far off it is is not known
 };
 
@@ -44,12 +44,12 @@ enum class Role {
 
 /// A method as the user picks it. Members that not all methods need may be left out.
 struct Method {
-    std::string_view name;    ///< of --method
+    std::string_view name;    ///< value of --method
     std::string_view summary; ///< one line for --help, with the source
     bool has_literal = false; ///< --literal changes it
     bool has_depth = false;   ///< --depth changes it
     bool unbiased;            ///< each step, in its corrected form; else consistent
-    StopRule default_stop;    ///< where the user gives none
+    StopRule default_stop;    ///< rule where the user gives none
     std::unique_ptr<Solver> (*make)(const SolverInput&);
     MakeStrategy strategy = nullptr; ///< what it shoots with; nullptr if it is no shooting method
     MethodWork work = {};            ///< what it does that a scene may not need
@@ -57,7 +57,7 @@ struct Method {
     /// Makes the same on one page, slow and obviously right (plain/plain.h); nullptr where there is
     /// none.
     std::unique_ptr<Solver> (*plain)(const SolverInput&) = nullptr;
-    std::size_t max_plain_patches = std::numeric_limits<std::size_t>::max(); ///< of its page
+    std::size_t max_plain_patches = std::numeric_limits<std::size_t>::max(); ///< limit of its page
     std::optional<Role> role = {};
     /// Returns whether --for changes it; nullptr: it never does.
     bool (*aims)() = nullptr;

@@ -25,7 +25,7 @@
 namespace hemilux {
 
 struct MethodOption {
-    std::string name; ///< as `--rings`
+    std::string name; ///< name such as `--rings`
     std::string help; ///< one line for --help, which names the methods before it
     /// The texts that may follow it, as `density`; capitals stand for other text, as in
     /// `hemicube:N`. A flag has none.

@@ -12,7 +12,7 @@ namespace hemilux {
 struct StepRecord {
     std::uint32_t step;
     std::uint64_t rays;     ///< every ray so far
-    double seconds;         ///< since the solver was made
+    double seconds;         ///< time since the solver was made
     double estimated_error; ///< relative [-]; NaN where it is unknown
 };
 

@@ -89,9 +89,9 @@ class TargetAim {
   private:
     void leave_out_unneeded();
 
-    std::span<const double> weight_; ///< by patch; empty: there is no target
-    double unit_ = 0;                ///< of of_rays_, in weights
-    std::vector<double> learned_;    ///< of rays, were all patches needed
+    std::span<const double> weight_; ///< weights by patch; empty: there is no target
+    double unit_ = 0;                ///< unit of of_rays_, in weights
+    std::vector<double> learned_;    ///< importance of rays, were all patches needed
     std::vector<double> of_rays_;    ///< importance of rays, by patch
     std::vector<bool> needed_;       ///< empty: not known yet
     bool is_outdated_ = false;

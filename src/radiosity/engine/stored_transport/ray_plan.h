@@ -30,8 +30,8 @@ struct RayGoal {
 
 /// The error of the solution so far.
 struct ErrorSoFar {
-    double relative = 0;               ///< as it is reported [-]
-    double variance = 0;               ///< in any unit
+    double relative = 0;               ///< error as it is reported [-]
+    double variance = 0;               ///< variance in any unit
     double variance_from_emitters = 0; ///< the part of it that comes from shadow rays
     bool drained = true;               ///< the rays have seen a way out for the light
 };
@@ -100,7 +100,7 @@ class RayPlan {
     RayWeights weights_;
     RayGoal goal_;
     RayBudget first_, before_, now_;
-    std::vector<double> aim_; ///< by patch, a factor of all weights; empty: there is no target
+    std::vector<double> aim_; ///< factors of all weights, by patch; empty: there is no target
 };
 
 } // namespace hemilux

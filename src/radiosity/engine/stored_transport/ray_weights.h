@@ -62,11 +62,11 @@ class RayWeights {
                     std::vector<double>& weights);
 
     const Mesh& mesh_;
-    std::vector<Vec3> reflectance_; ///< by patch [-]
+    std::vector<Vec3> reflectance_; ///< reflectance by patch [-]
     std::vector<double> random_, to_emitters_;
-    std::vector<double> learned_random_; ///< were all patches lit
+    std::vector<double> learned_random_; ///< weights, were all patches lit
     bool has_learned_ = false;
-    std::vector<double> prior_random_, prior_to_emitters_; ///< before anything is known
+    std::vector<double> prior_random_, prior_to_emitters_; ///< weights before anything is known
 };
 
 } // namespace hemilux

@@ -15,7 +15,7 @@ class Workers;
 
 /// The spread of the light, with an entry for each patch.
 struct RowSpread {
-    std::vector<Vec3> variance; ///< of the light over the directions [(W/m2)^2]
+    std::vector<Vec3> variance; ///< variance of the light over the directions [(W/m2)^2]
     /// The light of the direction that most of it comes from: the mean, weighted by itself [W/m2].
     std::vector<Vec3> typical;
 };

@@ -22,7 +22,7 @@ constexpr std::size_t patches_per_chunk = 512;
 
 /// Sums over some patches.
 struct Sums {
-    std::array<double, batches * batches> products{}; ///< of deviations
+    std::array<double, batches * batches> products{}; ///< products of deviations
     double direct_variance = 0;
 };
 

@@ -19,7 +19,7 @@ struct Needs;
 /// Holds how the light differs between the batches.
 struct BatchSpread {
     double freedom = 0;         ///< effective degrees of freedom (error_spread.h)
-    double direct_variance = 0; ///< of the light by shadow rays: sum over patches, as Solution's
+    double direct_variance = 0; ///< variance by shadow rays: sum over patches, as Solution's
     /// The same by patch, as if each were of the target; -1 where it has no shadow rays.
     std::vector<double> direct_variances;
 };
@@ -29,9 +29,9 @@ struct BatchSpread {
 
 /// Holds what is known of the error after a step, in the unit of Solution::variance.
 struct StepErrors {
-    double variance = 0;       ///< that more rays lower, all but `missed_in_dark`
+    double variance = 0;       ///< variance that more rays lower, all but `missed_in_dark`
     double from_emitters = 0;  ///< the part of it that comes from shadow rays
-    double missed_in_dark = 0; ///< as that of TransportErrors
+    double missed_in_dark = 0; ///< the same as that of TransportErrors
 
     StepErrors() = default;
     StepErrors(const TransportErrors& errors, const BatchSpread& spread);

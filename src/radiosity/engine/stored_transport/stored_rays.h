@@ -52,7 +52,7 @@ class StoredRays {
   private:
     SolverInput input_;
     std::vector<std::uint32_t> emitters_;
-    std::vector<RayCounts> counts_; ///< by batch
+    std::vector<RayCounts> counts_; ///< counts by batch
     std::optional<DirectLight> direct_;
 };
 

@@ -29,7 +29,7 @@ struct PartLedger {
     Vec3 used{0.0};          ///< power that ends there: absorbed, or lost
     Vec3 leaving{0.0};       ///< power that random rays stand for
     Vec3 one_ray{0.0};       ///< its mean per ray, weighted by itself
-    Vec3 loss_variance{0.0}; ///< of the power that random rays lose
+    Vec3 loss_variance{0.0}; ///< variance of the power that random rays lose
     Vec3 absorbing{0.0};     ///< area times absorptance
     double area = 0;
     double rays = 0, lost = 0; ///< numbers of rays

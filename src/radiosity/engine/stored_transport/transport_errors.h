@@ -26,15 +26,15 @@ class Workers;
 struct RowSpread;
 
 struct TransportErrors {
-    std::vector<Vec3> standard_error; ///< of the radiosity by patch [W/m2]
-    double variance = 0;  ///< by the batches: sum over patches of weight, local area and variance
+    std::vector<Vec3> standard_error; ///< error of the radiosity by patch [W/m2]
+    double variance = 0;  ///< sum over patches of weight, local area and variance by batches
     double of_losses = 0; ///< the part of it that comes from how many rays were lost, by counting
     /// The same, of light that no random ray may have found, and of light that no shadow ray may
     /// have found.
     double missed = 0, missed_by_shadow_rays = 0;
     double missed_in_dark = 0; ///< the part of `missed` that more rays of `needs_rays` take away
-    std::vector<std::uint32_t> part; ///< of each patch, see linked_parts.h
-    std::vector<bool> lit; ///< by patch: whether light reaches it on any stored path, or it emits
+    std::vector<std::uint32_t> part; ///< linked part of each patch, see linked_parts.h
+    std::vector<bool> lit; ///< patches that light reaches on any stored path, or that emit
     /// The patches that are lit, and those of dark parts whose few rays leave so much uncertain
     /// that it counts beside `variance`.
     std::vector<bool> needs_rays;
@@ -45,10 +45,10 @@ struct TransportResult {
     const Mesh& mesh;
     const TransportSystem& system;
     const BatchLight& light;
-    const ExchangeMatrix& factors; ///< of all batches
+    const ExchangeMatrix& factors; ///< factors of all batches
     const RowSpread& rows;
     const DirectLight& direct;
-    std::span<const double> weight = {}; ///< by patch, in the sums of errors; empty: 1
+    std::span<const double> weight = {}; ///< weights by patch, in the sums of errors; empty: 1
 };
 
 /// Returns the weight of the squared error of a patch [local area].

@@ -79,7 +79,7 @@ class TransportSystem {
 
     Surfaces surfaces_;
     std::vector<Vec3> sampled_emission_; ///< [W/m2]
-    double lost_at_least_ = 1;           ///< of what falls on a patch, in any channel
+    double lost_at_least_ = 1;           ///< share of what falls on a patch, in any channel
     bool closed_;
 };
 

@@ -47,7 +47,7 @@ class Graph {
 struct Member {
     Vec3 normal;
     double area, glow; ///< glow: emission summed over channels
-    double size_class; ///< by powers of two, whose limits are no areas that anybody draws
+    double size_class; ///< class by powers of two, whose limits are no areas that anybody draws
     int side;          ///< +1 or -1: faces the way of the first of its layers, or the other
 };
 
@@ -181,8 +181,8 @@ class LayerFinder {
     static constexpr std::int32_t unset = -1;
     const Graph& graph_;
     std::vector<Member> members_;
-    std::vector<std::int32_t> level_;  ///< from the lowest layer on
-    std::vector<std::int32_t> height_; ///< over where it was, along the front of side +1
+    std::vector<std::int32_t> level_;  ///< level, counted from the lowest layer
+    std::vector<std::int32_t> height_; ///< height over where it was, along the front of side +1
     std::vector<std::int32_t> taken_;
     std::vector<std::uint32_t> stack_;
 };

@@ -205,7 +205,7 @@ class Finder {
 
   private:
     struct Entry {
-        std::uint64_t cell; ///< of its plane
+        std::uint64_t cell; ///< cell of its plane
         std::uint32_t facet;
     };
 
@@ -305,7 +305,7 @@ class Finder {
     /// Comparisons of boxes that cost as much as one of shapes.
     static constexpr std::size_t boxes_per_comparison = 16;
     std::size_t left_, max_pairs_;
-    std::vector<bool> is_buried_; ///< by facet; empty where none is
+    std::vector<bool> is_buried_; ///< marks by facet; empty where none is
     Overlaps found_;
 };
 

@@ -36,7 +36,7 @@ struct Buried {
 
 struct Overlaps {
     std::vector<Overlap> pairs; ///< sorted; of facets that are not buried
-    std::vector<Buried> buried; ///< by shape
+    std::vector<Buried> buried; ///< buried facets by shape
     bool complete = true;       ///< false where there was more to be compared than allowed
 };
 

@@ -10,16 +10,16 @@ namespace hemilux {
 namespace {
 
 constexpr std::uint32_t rays_a_side = 128;
-constexpr double nothing = 0.01, something = 0.05; ///< of the rays
-constexpr double hardly_any = 0.1;                 ///< of what the other side sees
+constexpr double nothing = 0.01, something = 0.05; ///< shares of the rays
+constexpr double hardly_any = 0.1;                 ///< share of what the other side sees
 constexpr double much_nearer = 1.0 / 8;
-constexpr double near = 1.0 / 3, touching = 1.0 / 10; ///< of an emitter's size
+constexpr double near = 1.0 / 3, touching = 1.0 / 10; ///< shares of an emitter's size
 
 /// The surfaces that the rays of one side hit.
 struct View {
     double others = 0;             ///< other shells, as a share of the rays
     double dark = 0;               ///< what does not shine itself, of any shell
-    std::vector<double> distances; ///< to what is dark
+    std::vector<double> distances; ///< distances to what is dark
     /// Returns the median of the distances; infinite if there is none.
     [[nodiscard]] double median() {
         if (distances.empty())
@@ -109,7 +109,7 @@ class EmittingShell {
     const Targets& targets_;
     const Shells& shells_;
     std::uint32_t shell_;
-    std::vector<std::uint32_t> facets_; ///< that emit
+    std::vector<std::uint32_t> facets_; ///< facets that emit
     std::vector<double> areas_;
     double area_ = 0;
 };

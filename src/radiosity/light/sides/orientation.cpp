@@ -223,13 +223,13 @@ class OrientationSearch {
     const Tracer& tracer_;
     Shells shells_;
     Targets targets_;
-    std::vector<std::optional<EmitterSide>> emitter_side_; ///< by shell
-    std::vector<bool> emits_;                              ///< by shell
-    std::vector<SideLight> light_;                         ///< by facet
+    std::vector<std::optional<EmitterSide>> emitter_side_; ///< sides by shell
+    std::vector<bool> emits_;                              ///< marks by shell
+    std::vector<SideLight> light_;                         ///< light by facet
     std::vector<SideLight> light_of_face_;
     double all_light_ = 0;
     bool reversed_ = false, disordered_ = false; ///< the file: the second follows from the first
-    std::vector<bool> looks_away_, in_doubt_, stays_; ///< by face
+    std::vector<bool> looks_away_, in_doubt_, stays_; ///< marks by face
     Orientation result_;
 };
 

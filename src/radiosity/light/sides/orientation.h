@@ -21,16 +21,16 @@
 namespace hemilux {
 
 struct Orientation {
-    std::vector<bool> looks_away;      ///< by face of the file; empty where none does
-    std::size_t faces = 0;             ///< that look away
-    std::vector<std::uint32_t> groups; ///< of these faces, ascending
+    std::vector<bool> looks_away;      ///< marks by face of the file; empty where none does
+    std::size_t faces = 0;             ///< faces that look away
+    std::vector<std::uint32_t> groups; ///< groups of these faces, ascending
     std::size_t inside_out = 0;        ///< closed shells that do not emit, as a whole
     std::size_t from_behind = 0;       ///< open shells that do not emit, as a whole
     std::size_t emitters = 0;          ///< shells that emit, as a whole
     std::size_t mixed = 0;             ///< shells of which some faces look away
-    std::size_t clashing_edges = 0;    ///< that two facets run along in the same direction
+    std::size_t clashing_edges = 0;    ///< edges that two facets run along in the same direction
     std::size_t one_sided = 0;         ///< shells that cannot be oriented: Moebius strips
-    LightShares light;                 ///< with the faces as they are, if some look away
+    LightShares light;                 ///< light with the faces as they are, if some look away
     std::size_t in_doubt = 0; ///< faces that stay, although much light falls on their backs
     std::vector<std::uint32_t> groups_in_doubt; ///< ascending
 };

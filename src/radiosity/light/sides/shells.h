@@ -13,7 +13,7 @@
 namespace hemilux {
 
 struct Shell {
-    std::size_t begin, end; ///< in Shells::facets
+    std::size_t begin, end; ///< range in Shells::facets
     bool closed = true;     ///< every edge has exactly two facets
     bool consistent = true; ///< all neighbours agree
     bool orientable = true; ///< they would, if some were turned; not so for a Moebius strip
@@ -30,8 +30,8 @@ struct Shells {
     /// The facets to be turned so that their shells become consistent, with as little area turned
     /// as possible.
     std::vector<bool> against;
-    std::size_t shared_edges = 0;   ///< of two facets
-    std::size_t clashing_edges = 0; ///< of these, where the two do not agree
+    std::size_t shared_edges = 0;   ///< edges of two facets
+    std::size_t clashing_edges = 0; ///< those of these where the two do not agree
 
     [[nodiscard]] std::span<const std::uint32_t> facets_of(const Shell& shell) const {
         return std::span(facets).subspan(shell.begin, shell.end - shell.begin);

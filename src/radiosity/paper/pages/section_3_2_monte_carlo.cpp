@@ -31,8 +31,8 @@ class MonteCarlo final : public StepSolver {
             energy.push_back(mean_of_channels(result.unshot[i]));
         }
         for (std::uint64_t shot = 0;; ++shot) {
-            const auto shooter =
-                static_cast<std::uint32_t>(std::ranges::max_element(energy) - energy.begin());
+            const auto shooter = static_cast<std::uint32_t>(
+                std::max_element(energy.begin(), energy.end()) - energy.begin());
             if (!(energy[shooter] > 0))
                 break;
             if (input_.monitor.interrupted)

@@ -123,7 +123,7 @@ class Hemisphere1997 final : public StepSolver {
             const Polygon part = part_of(patch.shape, own_.parts, k / of_part);
             const double A_tr = part.area() / patch.area * std::max(Rules::area(tr), 0.0);
             const Vec3 Phi_ray = 1 / N_tr.divisor * A_tr * result.unshot[due.patch];
-            for (std::uint64_t i = 0; i < N_tr.number; ++i, ++number) {
+            for (std::size_t i = 0; i < N_tr.number; ++i, ++number) {
                 Rng random(hash_words({due.key & 0xffffffff, due.key >> 32, number}));
                 const auto u = [&] { return random.uniform(); };
                 const Vec3 direction = i < counted.size() ? counted[i] : tr.sample_rejection(u);

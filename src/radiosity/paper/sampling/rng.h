@@ -4,6 +4,7 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 
@@ -30,8 +31,8 @@ namespace hemilux {
 class Rng {
   public:
     explicit constexpr Rng(std::uint64_t seed) {
-        for (std::uint64_t i = 0; i < 4; ++i)
-            state_[i] = mix_bits(seed + (i + 1) * 0x9e3779b97f4a7c15u);
+        for (std::size_t i = 0; i < 4; ++i)
+            state_[i] = mix_bits(seed + std::uint64_t{i + 1} * 0x9e3779b97f4a7c15u);
     }
 
     constexpr std::uint64_t bits() {

@@ -34,7 +34,8 @@ LocalFrame LocalFrame::of(const Scene& scene) {
         for (const Facet& facet : scene.facets)
             for (const std::uint32_t v : facet.vertex)
                 places.push_back(scene.vertices[v][axis]);
-        const auto [low, high] = std::ranges::minmax(places);
+        const auto [lowest, highest] = std::minmax_element(places.begin(), places.end());
+        const double low = *lowest, high = *highest;
         ends.at(static_cast<std::size_t>(axis)) = {low, high};
         const auto skipped = static_cast<std::ptrdiff_t>(left_out * double(places.size()));
         const auto first = places.begin() + skipped, last = places.end() - 1 - skipped;
@@ -219,7 +220,8 @@ void Mesh::refine_facet(std::uint32_t facet, Refinement& before) {
     division.first_patch = static_cast<std::uint32_t>(patches_.size());
     const auto levels = before.levels.subspan(begin, end - begin);
     const bool had_cells = division.first_cell != none;
-    if (!had_cells && std::ranges::all_of(levels, [](std::uint8_t level) { return level == 0; })) {
+    if (!had_cells &&
+        std::all_of(levels.begin(), levels.end(), [](std::uint8_t level) { return level == 0; })) {
         for (std::uint32_t i = begin; i < end; ++i) {
             patches_.push_back(before.patches[i]);
             before.parents.push_back(i);

@@ -12,7 +12,7 @@ class MethodFigures {
   public:
     /// Sets a figure. Its name outlives this: it is a constant of the method.
     void set(std::string_view name, std::uint64_t value) {
-        const auto found = std::ranges::find(figures_, name, &Figure::name);
+        const auto found = std::find_if(figures_.begin(), figures_.end(), Named{name});
         if (found == figures_.end())
             figures_.push_back({name, value});
         else
@@ -20,7 +20,7 @@ class MethodFigures {
     }
     /// Returns a figure; 0 where the method finds none of that name.
     [[nodiscard]] std::uint64_t value(std::string_view name) const {
-        const auto found = std::ranges::find(figures_, name, &Figure::name);
+        const auto found = std::find_if(figures_.begin(), figures_.end(), Named{name});
         return found == figures_.end() ? 0 : found->value;
     }
 
@@ -28,6 +28,10 @@ class MethodFigures {
     struct Figure {
         std::string_view name;
         std::uint64_t value;
+    };
+    struct Named {
+        std::string_view name;
+        bool operator()(const Figure& figure) const { return figure.name == name; }
     };
     std::vector<Figure> figures_;
 };

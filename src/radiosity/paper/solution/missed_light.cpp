@@ -41,7 +41,8 @@ std::vector<Vec3> missed_by_rays(const LightFoundByRays& light) {
     };
     std::vector<std::uint32_t> order(light.area.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::ranges::stable_sort(order, {}, arrives);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return arrives(a) < arrives(b); });
     std::vector<Vec3> result(order.size(), Vec3(0.0));
     const double by_bright = rays_of_bright(light);
     double rays = 0; // of those from `darkest` to i

@@ -120,7 +120,7 @@ class Search {
             for (const std::uint32_t hit : receivers_of(found[k], rays))
                 if (hit < seen.size() && held_[hit] && !std::exchange(seen[hit], char{1}))
                     found.push_back(hit);
-        std::ranges::sort(found);
+        std::sort(found.begin(), found.end());
         return found;
     }
 
@@ -133,7 +133,8 @@ class Search {
 
 /// Returns whether the search would be the same in both channels.
 bool alike(const Mesh& mesh, int a, int b) {
-    return std::ranges::all_of(mesh.scene().materials, [&](const Material& m) {
+    const std::vector<Material>& materials = mesh.scene().materials;
+    return std::all_of(materials.begin(), materials.end(), [&](const Material& m) {
         return (m.reflectance[a] >= 1) == (m.reflectance[b] >= 1) &&
                (m.emission[a] > 0) == (m.emission[b] > 0);
     });

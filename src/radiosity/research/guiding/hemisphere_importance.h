@@ -67,8 +67,8 @@ class HemisphereImportance {
 
     const Hemisphere& hemisphere_;
     std::size_t first_leaf_, leaves_;
-    std::vector<double> shares_;         ///< by cell
-    std::vector<Known> known_, pending_; ///< by patch and leaf
+    std::vector<double> shares_;         ///< shares by cell
+    std::vector<Known> known_, pending_; ///< importance by patch and leaf
 };
 
 /// Returns the importance that every ray has besides what it hits. Rays of unequal power do not

@@ -69,7 +69,7 @@ class PyramidMap final : public LeafDensities {
 
     const Hemisphere& hemisphere_;
     double threshold_;
-    std::vector<std::uint8_t> counts_; ///< by patch and cell (log_byte.h)
+    std::vector<std::uint8_t> counts_; ///< counts by patch and cell (log_byte.h)
 };
 
 } // namespace hemilux

@@ -47,8 +47,8 @@ class RayDensities {
     std::vector<double> shares_;
     double mean_root_ = 0;
     std::vector<std::uint8_t> importance_;         ///< sqrt(V) by patch and leaf
-    std::array<double, log_byte::values> density_; ///< by the byte of importance_
-    std::vector<double> rays_for_power_;           ///< by patch
+    std::array<double, log_byte::values> density_; ///< density by the byte of importance_
+    std::vector<double> rays_for_power_;           ///< rays by patch
 };
 
 } // namespace hemilux

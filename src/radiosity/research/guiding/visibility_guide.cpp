@@ -173,10 +173,10 @@ class VisibilityGuide final : public Strategy, StepHook {
     HemisphereImportance known_;
     RayDensities densities_;
     double training_steps_ = 0; ///< steps whose rays are in known_, the look being a part of one
-    std::uint64_t steps_ = 0;   ///< that are done, without the pilot
+    std::uint64_t steps_ = 0;   ///< steps that are done, without the pilot
     std::uint64_t rays_ = 0;
-    std::vector<Side> sides_;   ///< by patch
-    std::vector<Frame> frames_; ///< by patch
+    std::vector<Side> sides_;   ///< sides by patch
+    std::vector<Frame> frames_; ///< frames by patch
 };
 
 template <class Body>

@@ -48,7 +48,7 @@ class LostRays {
 
   private:
     std::vector<RayCounts> batches_;
-    std::vector<double> rays_; ///< by patch, in each batch
+    std::vector<double> rays_; ///< rays by patch, in each batch
 };
 
 /// This is how the rows of one batch end, by patch.

@@ -22,9 +22,9 @@ class PatchTree {
   public:
     /// Lengths and areas are in local units.
     struct Node {
-        std::uint32_t begin, end;    ///< of its patches, in order()
+        std::uint32_t begin, end;    ///< range of its patches, in order()
         std::uint32_t child = none;  ///< the first of two in a row; none where it is one patch
-        Vec3 centre{0.0};            ///< of mass
+        Vec3 centre{0.0};            ///< centre of mass
         Vec3 normal{0.0};            ///< unit
         double area = 0, radius = 0; ///< radius: no point of it is further from the centre
         [[nodiscard]] bool is_patch() const { return child == none; }
@@ -57,7 +57,7 @@ class PatchTree {
     const Mesh& mesh_;
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> roots_, order_;
-    std::vector<double> area_before_; ///< of all patches before a place in order_
+    std::vector<double> area_before_; ///< area of all patches before a place in order_
 };
 
 } // namespace hemilux

@@ -262,9 +262,9 @@ class HierarchicalSolver final : public Solver {
     /// The squares of what the last refinement has changed (squares_of_changes), if there was any.
     std::vector<Vec3> changes_;
     bool changes_known_ = false;
-    Refinement refinement_ = Refinement::not_needed; ///< in this step
+    Refinement refinement_ = Refinement::not_needed; ///< state in this step
     double tolerance_ = first_tolerance;
-    double rays_; ///< per patch, of the next step
+    double rays_; ///< rays per patch, of the next step
     std::uint64_t traced_ = 0;
 };
 

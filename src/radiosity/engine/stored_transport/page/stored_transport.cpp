@@ -156,7 +156,7 @@ class StoredTransport final : public Solver {
 
     SolverInput input_;
     std::uint32_t n_;
-    std::vector<Counts> counts_; ///< of each batch, then of all
+    std::vector<Counts> counts_; ///< counts of each batch, then of all
     double N_ = 0;               ///< rays of each patch and batch
     Solution solution_;
 };
