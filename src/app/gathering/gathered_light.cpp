@@ -102,7 +102,9 @@ void Gathering::find_points(std::span<const NamedPoint> points) {
                                            point.normal));
     Errors errors{learn(parts_of(light_.sensors), seed_of(3))};
     const Stopwatch watch;
-    PointLightOptions options{.noise = share_of_noise * error_,
+    // The noise of few points is hardly known, and so its bound is larger.
+    const double in_doubt = 1 + 1 / std::sqrt(double(std::max<std::size_t>(points.size(), 1)));
+    PointLightOptions options{.noise = share_of_noise * error_ / in_doubt,
                               .read_error =
                                   std::isfinite(errors.read.error) ? errors.read.error : 0,
                               .seed = seed_of(2),

@@ -186,8 +186,8 @@ TEST_CASE("where all light is gathered the reported error is that of gathered li
         return place.read("s.json");
     };
     for (const std::string gathered :
-         {"-o a.png --size 32x24", "--points points.txt --points-output p.csv",
-          "-o a.hdr --size 32x24 --points points.txt --points-output p.csv"}) {
+         {"-o a.png --size 320x240", "--points points.txt --points-output p.csv",
+          "-o a.hdr --size 320x240 --points points.txt --points-output p.csv"}) {
         const std::string json = error_of(gathered);
         CHECK_THAT(json, Contains("\"estimated_error_of\": \"gathered\""));
         CHECK(statistic(json, "estimated_error") <= statistic(json, "error_bound"));

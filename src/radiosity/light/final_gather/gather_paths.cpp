@@ -76,13 +76,8 @@ bool GatherPaths::end_ray(const PathRays::State& ray, const Met& met, unsigned b
 /// Adds one random ray of a path that goes on, and one to an emitter where such are taken.
 void GatherPaths::go_on(const PathRays::State& from, const Met& met, PathRays& next) const {
     const Patch& on = mesh_.patches()[met.patch];
-    // Russian roulette (Arvo and Kirk 1990) keeps the paths in narrow gaps and bright rooms short.
-    const Vec3& rho = met.here.reflectance;
-    const double kept = std::min(std::max({rho.x, rho.y, rho.z}), 1.0);
-    if (Rng(hash_words({from.seed, 2})).uniform() >= kept)
-        return;
     PathRays::State state = from;
-    state.share = from.share * rho / kept;
+    state.share = from.share * met.here.reflectance;
     begin_at({met.point, on.normal, on.facet, met.patch}, state, next);
 }
 
