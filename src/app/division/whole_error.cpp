@@ -38,9 +38,15 @@ void enter(Statistics& statistics, const DivisionError& of_patches, bool divide_
 
 } // namespace
 
+double error_of_gathered(const SolveSettings& settings) {
+    constexpr double usual = .02;
+    return settings.stop.error.value_or(usual);
+}
+
 double whole_error(const SolveSettings& settings) {
-    constexpr double usual = .05, usual_gathered = .02;
-    return settings.stop.error.value_or(gives_gathered_light(settings) ? usual_gathered : usual);
+    constexpr double usual = .05;
+    return gives_gathered_light(settings) ? error_of_gathered(settings)
+                                          : settings.stop.error.value_or(usual);
 }
 
 double sampling_of_gathered(const SolveSettings& settings) {

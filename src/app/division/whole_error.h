@@ -12,6 +12,9 @@ namespace hemilux {
 /// Returns the whole error that a run is to reach, relative [-].
 [[nodiscard]] double whole_error(const SolveSettings& settings);
 
+/// Returns the error that gathered light is to reach, relative [-].
+[[nodiscard]] double error_of_gathered(const SolveSettings& settings);
+
 /// Returns whether all light that is given out is gathered at points or for pictures, none as
 /// patches have it. The whole error is then that of gathered light.
 [[nodiscard]] bool gives_gathered_light(const SolveSettings& settings);

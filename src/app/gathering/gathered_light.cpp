@@ -53,7 +53,7 @@ class Gathering {
               Monitor& monitor, Statistics& statistics)
         : settings_(settings), scene_(scene), solution_(solution), monitor_(monitor),
           statistics_(statistics), workers_(settings.options.threads),
-          time_(monitor.interrupted.own().wished), error_(whole_error(settings)) {
+          time_(monitor.interrupted.own().wished), error_(error_of_gathered(settings)) {
         light_.cache = std::make_unique<LightCache>(scene.mesh, scene.tracer, solution);
     }
 
@@ -120,9 +120,11 @@ void Gathering::find_points(std::span<const NamedPoint> points) {
     add(errors);
 }
 
-/// Where the picture's own error is too large, it is rendered again with four times as many rays.
+/// Where the picture's own error is too large, it is rendered again with four times as many rays,
+/// as long as that helps: in small pictures most of it lies between the points of the grid.
 void Gathering::find_picture(const Camera& camera) {
     constexpr unsigned max_gather = 256;
+    constexpr double helps = .75;
     const auto [width, height] = settings_.view.size;
     const CameraRays rays(camera, scene_.mesh, double(width) / height);
     Errors errors{
@@ -142,10 +144,11 @@ void Gathering::find_picture(const Camera& camera) {
                           hash_words({seed_of(7), attempt}), workers_);
         statistics_.rays_learn += own.rays;
         statistics_.seconds_learn += judging.seconds();
+        const double before = attempt == 0 ? own.error / helps : errors.noise;
         errors.noise = own.error;
         errors.noise_uncertainty = own.uncertainty;
         if (settings_.gather || errors.whole() <= error_ || 4 * options.gather > max_gather ||
-            errors.read.bound > error_ || monitor_.interrupted)
+            own.error > helps * before || errors.read.bound > error_ || monitor_.interrupted)
             break;
     }
     add(errors);
