@@ -7,6 +7,7 @@
 #include "app/division/whole_error.h"
 #include "app/gathering/gathered_light.h"
 #include "app/gathering/point_table.h"
+#include "app/gathering/shown_camera.h"
 #include "app/gathering/target_light.h"
 #include "app/loading/load.h"
 #include "app/loading/reference.h"

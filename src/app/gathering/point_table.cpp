@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace hemilux {
 
@@ -20,12 +19,11 @@ void check_distances(const std::string& path, std::span<const NamedPoint> points
     }
 }
 
-void write_points(const std::string& path, const Results& results) {
-    const auto& [sensors, lights] =
-        std::tie(results.gathered.sensors, results.gathered.points.lights);
-    if (lights.size() < results.points.size())
+void write_points(const std::string& path, const Mesh& mesh, std::span<const NamedPoint> points,
+                  const GatheredLight& gathered) {
+    if (gathered.points.lights.size() < points.size())
         throw Interrupted();
-    write_points_table(path, results.mesh, results.points, sensors, lights);
+    write_points_table(path, mesh, points, gathered.sensors, gathered.points.lights);
 }
 
 } // namespace hemilux

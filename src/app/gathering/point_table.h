@@ -1,9 +1,10 @@
 #pragma once
 // --points: the light at points that the user names.
 
-#include "app/running/results.h"
+#include "app/gathering/gathered_light.h"
 
 #include <span>
+#include <string>
 
 namespace hemilux {
 
@@ -13,6 +14,7 @@ void check_distances(const std::string& path, std::span<const NamedPoint> points
 
 /// Writes the table of what was gathered. Throws OutputError, and Interrupted where a signal ended
 /// that.
-void write_points(const std::string& path, const Results& results);
+void write_points(const std::string& path, const Mesh& mesh, std::span<const NamedPoint> points,
+                  const GatheredLight& gathered);
 
 } // namespace hemilux

@@ -2,7 +2,6 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/text.h"
-#include "app/terminal/log.h"
 #include "io/meshes/baked_light.h"
 #include "io/pictures/exr.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -36,15 +35,6 @@ Camera camera_of(const ViewSettings& view, const LitScene& scene) {
                ? *view.camera
                : automatic_camera(scene.mesh, scene.tracer, scene.radiosity,
                                   static_cast<double>(width) / height, view.up, scene.threads);
-}
-
-Camera shown_camera_of(const ViewSettings& view, const LitScene& scene, Verbosity verbosity) {
-    const Camera camera = camera_of(view, scene);
-    if (!view.camera)
-        log_line(verbosity, Verbosity::normal,
-                 "pictures are seen by " + camera_text(camera) +
-                     (!view.up && camera.up.z == 1 ? "; --up y takes y as upwards" : ""));
-    return camera;
 }
 
 bool PictureTime::is_over() const {

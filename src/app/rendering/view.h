@@ -43,10 +43,6 @@ struct LitScene {
 /// Returns the camera given, or one chosen for the scene.
 [[nodiscard]] Camera camera_of(const ViewSettings& view, const LitScene& scene);
 
-/// Returns the same; one that was chosen is logged.
-[[nodiscard]] Camera shown_camera_of(const ViewSettings& view, const LitScene& scene,
-                                     Verbosity verbosity);
-
 /// Returns the options of a picture in the size asked for, which ends with Interrupted when the
 /// time is over. They refer to `time`.
 [[nodiscard]] RenderOptions picture_options(PixelSize size, unsigned threads,

@@ -1,11 +1,12 @@
 #include "app/running/results.h"
 
+#include "app/gathering/point_table.h"
+#include "app/gathering/shown_camera.h"
 #include "app/loading/load.h"
 #include "app/rendering/view.h"
 #include "app/report/report_page.h"
 #include "app/running/error_map.h"
 #include "app/running/layered_picture.h"
-#include "app/gathering/point_table.h"
 #include "app/terminal/log.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
@@ -223,8 +224,9 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
                     classes);
     WriteReport report;
     if (!settings.points.output.empty())
-        report.attempt(settings.points.output,
-                       [&] { write_points(settings.points.output, results); });
+        report.attempt(settings.points.output, [&] {
+            write_points(settings.points.output, results.mesh, results.points, results.gathered);
+        });
     const double seconds_points = writing.seconds();
     std::vector<WriteReport> reports(settings.outputs.size());
     const auto write = [&](std::size_t k) {
