@@ -36,8 +36,7 @@ void measure(const Settings& settings) {
     SceneSettings scene;
     scene.path = settings.scene;
     ReadResult read = load_scene(scene, {});
-    const Mesh mesh =
-        divide_with_sides(std::move(read.scene), scene, {}, Verbosity::quiet).mesh;
+    const Mesh mesh = divide_with_sides(std::move(read.scene), scene, {}, Verbosity::quiet).mesh;
     const MadeTracer made = make_tracer(mesh, find_needs(mesh).tree, 0);
     const std::vector<PatchPoint> points =
         PointsOverSurface(mesh).draw(settings.points, settings.seed);

@@ -141,9 +141,7 @@ bool AutoDivision::is_enough(double sampling) {
 bool AutoDivision::is_confirmed(std::uint64_t max_rays, double sampling,
                                 std::span<const double> square) {
     const DivisionErrorOptions options{
-        .max_rays = max_rays,
-        .negligible = sampling / 2,
-        .square = square};
+        .max_rays = max_rays, .negligible = sampling / 2, .square = square};
     measure(options);
     if (is_over() || !is_enough(sampling))
         return false;

@@ -36,8 +36,7 @@ AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches)
 }
 
 bool divides_by_default(const SolveSettings& settings, std::size_t patches) {
-    return !settings.divide_given &&
-           patches < max_patches_by_default && writes_mesh(settings) &&
+    return !settings.divide_given && patches < max_patches_by_default && writes_mesh(settings) &&
            settings.method == &method_of(Role::standard) && !settings.plain &&
            settings.scene.mesh.max_edge == 0 && settings.target.names().empty() &&
            !settings.stop.steps && !settings.every_step && settings.reference.empty() &&

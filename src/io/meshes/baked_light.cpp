@@ -2,8 +2,8 @@
 
 #include "geometry/numeric.h"
 #include "io/pictures/image.h"
-#include "radiosity/paper/scene/mesh.h"
 #include "radiosity/light/cached_light/patch_light.h"
+#include "radiosity/paper/scene/mesh.h"
 
 namespace hemilux {
 namespace {

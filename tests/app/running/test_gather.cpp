@@ -19,7 +19,7 @@ TEST_CASE("pictures are gathered, unless --no-gather; those of steps are not") {
     const Workplace place;
     place.write_room();
     const std::string common = "solve room.obj -q --steps 1 --size 64x48 " + test::camera_in_room;
-    REQUIRE(place.hemilux(common + "--every-step -o a.png").code == 0);
+    REQUIRE(place.hemilux(common + "--gather 16 --every-step -o a.png").code == 0);
     REQUIRE(place.hemilux(common + "--gather 16 -t 1 -o b.png -o b.hdr").code == 0);
     REQUIRE(place.hemilux(common + "--gather 17 -o c.png").code == 0);
     REQUIRE(place.hemilux(common + "--no-gather -o d.hdr --every-step -o d.png").code == 0);

@@ -1,8 +1,8 @@
 #include "io/meshes/baked_light.h"
+#include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
-#include "radiosity/light/cached_light/patch_light.h"
 
 using namespace hemilux;
 using namespace hemilux::test;

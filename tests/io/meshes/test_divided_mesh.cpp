@@ -4,12 +4,12 @@
 #include "io/meshes/ply.h"
 #include "io/meshes/vtu.h"
 #include "io/polygons/convex_triangles.h"
+#include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
-#include "radiosity/light/cached_light/patch_light.h"
 
 #include <algorithm>
 #include <array>

@@ -3,11 +3,11 @@
 #include "io/gltf/document/container.h"
 #include "io/gltf/gltf.h"
 #include "io/meshes/glb.h"
+#include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
-#include "radiosity/light/cached_light/patch_light.h"
 
 #include <cstring>
 #include <nlohmann/json.hpp>

@@ -11,8 +11,8 @@ namespace hemilux {
 ReachedEmitters::ReachedEmitters(const Mesh& mesh) : ReachedEmitters(mesh, small_emitters(mesh)) {}
 
 ReachedEmitters::ReachedEmitters(const Mesh& mesh, std::span<const std::uint32_t> emitters)
-    : mesh_(mesh), emission_(mesh.patches().size(), Vec3(0.0)), sides_(sides_of_emitters(mesh, emitters)),
-      choice_(mesh, sides_) {
+    : mesh_(mesh), emission_(mesh.patches().size(), Vec3(0.0)),
+      sides_(sides_of_emitters(mesh, emitters)), choice_(mesh, sides_) {
     for (const std::uint32_t i : emitters)
         emission_[i] = mesh.material(i).emission;
     for (const Patch& side : sides_) {

@@ -34,6 +34,10 @@ constexpr double sigmas_of_bound = 2;
 /// The least number of rounds: the first ones have too few walks for what is rare.
 constexpr std::uint64_t min_rounds = 3;
 
+/// Where no light is found at all, or more than numbers hold, walks end at one in so many of all
+/// rays.
+constexpr std::uint64_t share_of_unknown = 64;
+
 /// What one group of walks of a part finds.
 struct Group {
     Vec3 light{0.0};    ///< as gathers find it, sum [W/m2]
@@ -176,8 +180,10 @@ ReadError LightCache::learn(std::span<const TargetPart> target, const LearnOptio
         walks += taken;
         const bool is_known =
             !(options.accuracy > 0) || found.uncertainty <= options.accuracy * found.error;
-        if ((number + 1 >= min_rounds && found.bound <= options.error && is_known) ||
-            2 * rays > options.max_rays)
+        const bool is_enough = number + 1 >= min_rounds && found.bound <= options.error && is_known;
+        const std::uint64_t max_rays =
+            std::isfinite(found.bound) ? options.max_rays : options.max_rays / share_of_unknown;
+        if (is_enough || 2 * rays > max_rays)
             break;
         next = number == 0 ? taken : 2 * taken;
     }
