@@ -70,6 +70,13 @@ void add_stop_options(Command command, StopRule& stop) {
         "after N rays, even if the error is not reached [1e8 and 1000 a patch]");
 }
 
+void add_error_accuracy_option(Command command, double& accuracy) {
+    add_error(
+        command, "--error-accuracy", accuracy,
+        "also find the error of gathered light to this share of itself, e.g. 10% [it is enough "
+        "that the error is surely below the one asked for]");
+}
+
 void add_whole_error_option(Command command, SolveSettings& settings) {
     command.add_flag("--whole-error", settings.whole_error,
                      "also find out how far the light within patches is from theirs; takes up to "
@@ -235,6 +242,8 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_plain_option(method, settings.plain);
     add_own_options(command.under(own_group), methods(), settings.options);
     add_stop_options(command.under("Stop at the first that is met"), settings.stop);
+    add_error_accuracy_option(command.under("Stop at the first that is met"),
+                              settings.error_accuracy);
     add_whole_error_option(scene, settings);
     add_target_option(command.under("Target"), settings.target);
     add_output_options(outputs, settings);

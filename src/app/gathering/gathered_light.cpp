@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -23,6 +24,13 @@ constexpr double share_of_read = .7, share_of_noise = .6;
 
 /// The most points from which the light that all of them read is learned.
 constexpr std::size_t max_learned_points = 65'536;
+
+/// Returns the rays at a point of a picture for an error: 16 for 2 %, and as the inverse square of
+/// the error, by powers of two from 4 to 64.
+unsigned rays_for(double error) {
+    return 1u << static_cast<unsigned>(
+               std::clamp(std::round(4 + 2 * std::log2(.02 / error)), 2.0, 6.0));
+}
 
 std::vector<TargetPart> parts_of(std::span<const Sensor> sensors) {
     std::vector<TargetPart> parts;
@@ -38,6 +46,10 @@ struct Errors {
     double noise = 0;             ///< of their own, relative [-]
     double noise_uncertainty = 0; ///< one sigma
 
+    void set_noise(const PictureError& own) {
+        noise = own.error;
+        noise_uncertainty = own.uncertainty;
+    }
     [[nodiscard]] double whole() const { return std::hypot(read.error, noise); }
     [[nodiscard]] double bound() const { return std::hypot(read.bound, noise + noise_uncertainty); }
     [[nodiscard]] double uncertainty() const {
@@ -64,6 +76,8 @@ class Gathering {
 
   private:
     [[nodiscard]] ReadError learn(std::span<const TargetPart> target, std::uint64_t seed);
+    [[nodiscard]] PictureError judge(const Image& picture, const CameraRays& rays,
+                                     std::uint64_t more);
     void add(const Errors& errors) {
         if (!errors_ || errors.bound() > errors_->bound())
             errors_ = errors;
@@ -85,11 +99,24 @@ class Gathering {
 };
 
 ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t seed) {
-    LearnOptions options{.seed = seed, .error = share_of_read * error_};
+    LearnOptions options{
+        .seed = seed, .error = share_of_read * error_, .accuracy = settings_.error_accuracy};
     if (settings_.stop.rays)
         options.max_rays = *settings_.stop.rays;
     const Stopwatch watch;
     const ReadError found = light_.cache->learn(target, options, workers_, monitor_.interrupted);
+    statistics_.rays_learn += found.rays;
+    statistics_.seconds_learn += watch.seconds();
+    return found;
+}
+
+/// `more` times as many pixels are judged as usual.
+PictureError Gathering::judge(const Image& picture, const CameraRays& rays, std::uint64_t more) {
+    constexpr std::size_t usual_pixels = 512;
+    const Stopwatch watch;
+    const PictureError found =
+        picture_error(scene_.mesh, scene_.tracer, light_.cache->light(), rays, picture,
+                      usual_pixels * more, hash_words({seed_of(7), more - 1}), workers_);
     statistics_.rays_learn += found.rays;
     statistics_.seconds_learn += watch.seconds();
     return found;
@@ -124,6 +151,7 @@ void Gathering::find_points(std::span<const NamedPoint> points) {
 /// as long as that helps: in small pictures most of it lies between the points of the grid.
 void Gathering::find_picture(const Camera& camera) {
     constexpr unsigned max_gather = 256;
+    constexpr std::uint64_t max_more = 64;
     constexpr double helps = .75;
     const auto [width, height] = settings_.view.size;
     const CameraRays rays(camera, scene_.mesh, double(width) / height);
@@ -133,24 +161,25 @@ void Gathering::find_picture(const Camera& camera) {
     RenderOptions options = picture_options(settings_.view.size, settings_.options.threads, time_);
     options.slope = solution_.slope;
     options.cells = &light_.cache->cells();
-    options.gather = settings_.rays_of_gather();
-    for (std::uint64_t attempt = 0;; ++attempt, options.gather *= 4) {
+    options.gather = settings_.gather.value_or(rays_for(error_));
+    for (double before = std::numeric_limits<double>::infinity();; options.gather *= 4) {
         const Stopwatch watch;
         light_.picture = render_view(scene_, camera, options);
         statistics_.seconds_gather += watch.seconds();
-        const Stopwatch judging;
-        const PictureError own =
-            picture_error(scene_.mesh, scene_.tracer, light_.cache->light(), rays, *light_.picture,
-                          hash_words({seed_of(7), attempt}), workers_);
-        statistics_.rays_learn += own.rays;
-        statistics_.seconds_learn += judging.seconds();
-        const double before = attempt == 0 ? own.error / helps : errors.noise;
-        errors.noise = own.error;
-        errors.noise_uncertainty = own.uncertainty;
-        if (settings_.gather || errors.whole() <= error_ || 4 * options.gather > max_gather ||
-            own.error > helps * before || errors.read.bound > error_ || monitor_.interrupted)
+        errors.set_noise(judge(*light_.picture, rays, 1));
+        if (errors.whole() <= error_ && errors.bound() > error_)
+            errors.set_noise(judge(*light_.picture, rays, 4));
+        if (settings_.gather || errors.bound() <= error_ || 4 * options.gather > max_gather ||
+            errors.noise > helps * before || errors.read.bound > error_ || monitor_.interrupted)
             break;
+        before = errors.noise;
     }
+    const double accuracy = settings_.error_accuracy;
+    for (std::uint64_t more = 4;
+         accuracy > 0 && more <= max_more && !monitor_.interrupted &&
+         errors.noise * errors.noise_uncertainty > accuracy * errors.whole() * errors.whole();
+         more *= 4)
+        errors.set_noise(judge(*light_.picture, rays, more));
     add(errors);
 }
 

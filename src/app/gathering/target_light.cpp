@@ -84,7 +84,8 @@ void gather_target(const SolveSettings& settings, const LitScene& scene, Solutio
     }
     LightCache cache(mesh, scene.tracer, solution);
     LearnOptions options{.seed = hash_words({settings.options.seed, 8}),
-                         .error = share_of_learned * error};
+                         .error = share_of_learned * error,
+                         .accuracy = settings.error_accuracy};
     if (settings.stop.rays)
         options.max_rays = *settings.stop.rays;
     const ReadError read = cache.learn(parts, options, workers, monitor.interrupted);

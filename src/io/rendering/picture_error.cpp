@@ -15,9 +15,6 @@
 namespace hemilux {
 namespace {
 
-/// About so many pixels are judged, one in each of equal parts of the picture.
-constexpr double pixels_to_judge = 512;
-
 /// The number of places in a pixel for each of the two estimates.
 constexpr std::size_t places_in_pixel = 8;
 
@@ -64,10 +61,10 @@ JudgedPixel judged_pixel(const Mesh& mesh, const Tracer& tracer, const CameraRay
 } // namespace
 
 PictureError picture_error(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
-                           const CameraRays& camera, const Image& picture, std::uint64_t seed,
-                           const Workers& workers) {
+                           const CameraRays& camera, const Image& picture, std::size_t count,
+                           std::uint64_t seed, const Workers& workers) {
     const double side =
-        std::max(1.0, std::sqrt(double(picture.width) * double(picture.height) / pixels_to_judge));
+        std::max(1.0, std::sqrt(double(picture.width) * double(picture.height) / double(count)));
     std::vector<JudgedPixel> pixels;
     Rng rng(seed);
     for (double top = 0; top < picture.height; top += side)

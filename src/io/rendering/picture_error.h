@@ -6,6 +6,7 @@
 #include "io/pictures/image.h"
 #include "radiosity/light/cached_light/surface_light.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace hemilux {
@@ -21,10 +22,11 @@ struct PictureError {
 
 /// Gathers the light at random pixels once more, twice independently, with many rays. The mean
 /// product of both differences from the picture is its squared error, free of their noise. Pixels
-/// on edges are left out.
+/// on edges are left out. About so many pixels are judged, one in each of equal parts of the
+/// picture.
 [[nodiscard]] PictureError picture_error(const Mesh& mesh, const Tracer& tracer,
                                          const SurfaceLight& light, const CameraRays& camera,
-                                         const Image& picture, std::uint64_t seed,
-                                         const Workers& workers);
+                                         const Image& picture, std::size_t pixels,
+                                         std::uint64_t seed, const Workers& workers);
 
 } // namespace hemilux

@@ -1,6 +1,7 @@
 // Gathered light where faces are in two states, against closed forms and the same scene without the
 // other state.
 #include "app/check_fails.h"
+#include "app/statistics_file.h"
 #include "io/pictures/image.h"
 #include "support/catch.h"
 
@@ -116,4 +117,21 @@ TEST_CASE("a bright room does not light its dim neighbour by a floor that both s
         CHECK(beside[k] == Approx(alone[k]).epsilon(.06));
         CHECK(alone[k] > 0);
     }
+}
+
+TEST_CASE("the error of gathered light is found as exactly as it is asked for") {
+    const Workplace place;
+    place.write_room();
+    const auto relative_uncertainty = [&](const std::string& options) {
+        place.hemilux("solve room.obj -q -o p.png --size 96x72 --error 5% --stats s.json" +
+                      options);
+        const std::string json = place.read("s.json");
+        const double error = test::statistic(json, "estimated_error");
+        CHECK(error > 0);
+        CHECK(error <= test::statistic(json, "error_bound"));
+        CHECK(test::statistic(json, "error_bound") <= .05);
+        return test::statistic(json, "estimated_error_uncertainty") / error;
+    };
+    CHECK(relative_uncertainty(" --error-accuracy 10%") < .15);
+    CHECK(relative_uncertainty("") > .15);
 }

@@ -28,7 +28,8 @@ struct Furnace {
     [[nodiscard]] PictureError error_of(float value, unsigned threads = 0) const {
         Image picture(160, 120);
         picture.pixels.assign(picture.pixels.size(), glm::vec3(value));
-        return picture_error(model.mesh, model.bvh, light, camera, picture, 1, Workers(threads));
+        return picture_error(model.mesh, model.bvh, light, camera, picture, 512, 1,
+                             Workers(threads));
     }
 };
 

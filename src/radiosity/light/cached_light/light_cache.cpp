@@ -21,6 +21,9 @@ constexpr std::size_t first_walks = 4096;
 /// The most parts of a target that take walks in a round: with fewer, the error is known sooner.
 constexpr std::size_t parts_of_round = 96;
 
+/// The most of them where the error itself is asked for: it is known no better than parts differ.
+constexpr std::size_t max_parts_to_know = 4096;
+
 /// The least number of walks in a group: their spread is the noise of the group.
 constexpr std::size_t min_of_group = 4;
 
@@ -150,8 +153,9 @@ LightCache::Round LightCache::take_walks(std::span<const TargetPart> target, std
 
 /// Returns parts of a target, other ones in each round: what was learned at some is judged at
 /// others.
-std::vector<TargetPart> some_of(std::span<const TargetPart> target, std::uint64_t seed) {
-    const std::size_t count = std::min(target.size(), parts_of_round);
+std::vector<TargetPart> some_of(std::span<const TargetPart> target, std::size_t most,
+                                std::uint64_t seed) {
+    const std::size_t count = std::min(target.size(), most);
     const double offset = Rng(seed).uniform();
     std::vector<TargetPart> some;
     for (std::size_t k = 0; k < count; ++k)
@@ -160,30 +164,40 @@ std::vector<TargetPart> some_of(std::span<const TargetPart> target, std::uint64_
     return some;
 }
 
+/// Returns whether an error is known as well as asked for, beside other errors of half its limit.
+bool is_known(const ReadError& found, const LearnOptions& options) {
+    return !(options.accuracy > 0) ||
+           found.error * found.uncertainty <=
+               options.accuracy * (found.error * found.error + options.error * options.error / 4);
+}
+
+/// Once the light is right further rounds only judge it.
 ReadError LightCache::learn(std::span<const TargetPart> target, const LearnOptions& options,
                             const Workers& workers, const StopFlag& interrupted) {
     ReadError found;
     std::uint64_t rays = 0, walks = 0;
     std::size_t next = first_walks;
+    bool is_right = false;
     for (std::uint64_t number = 0; !target.empty(); ++number) {
         const std::uint64_t seed = hash_words({options.seed, number});
-        const std::vector<TargetPart> some = some_of(target, seed);
+        const std::vector<TargetPart> some =
+            some_of(target, options.accuracy > 0 ? max_parts_to_know : parts_of_round, seed);
         const std::size_t of_group = std::max(min_of_group, next / (2 * some.size()));
         const Round round = take_walks(some, of_group, seed, workers, interrupted);
         if (interrupted)
             return {};
         found = round.error(some, static_cast<double>(of_group));
-        cells_.add(round.samples);
-        cells_.update();
+        if (!is_right) {
+            cells_.add(round.samples);
+            cells_.update();
+        }
         rays += round.rays;
         const std::size_t taken = 2 * of_group * some.size();
         walks += taken;
-        const bool is_known =
-            !(options.accuracy > 0) || found.uncertainty <= options.accuracy * found.error;
-        const bool is_enough = number + 1 >= min_rounds && found.bound <= options.error && is_known;
+        is_right = is_right || (number + 1 >= min_rounds && found.bound <= options.error);
         const std::uint64_t max_rays =
             std::isfinite(found.bound) ? options.max_rays : options.max_rays / share_of_unknown;
-        if (is_enough || 2 * rays > max_rays)
+        if ((is_right && is_known(found, options)) || 2 * rays > max_rays)
             break;
         next = number == 0 ? taken : 2 * taken;
     }

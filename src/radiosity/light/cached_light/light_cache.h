@@ -33,7 +33,8 @@ struct LearnOptions {
     std::uint64_t seed = 1;
     /// Walks end once the error is surely below this [-].
     double error = .01;
-    /// Walks also go on until the error is known to this share of itself, if that is above 0.
+    /// Walks also go on until the error is known to this share of itself, if that is above 0, or
+    /// matters little beside `error`.
     double accuracy = 0;
     std::uint64_t max_rays = 30'000'000;
 };
