@@ -167,17 +167,22 @@ void AutoDivision::divide_once(Division& division) {
     mesh_changed_();
 }
 
+/// Where rays are limited, the division may take half of them.
 void AutoDivision::divide_until_enough() {
-    Division division(mesh_, input_.tracer, options_, input_.monitor);
     const std::uint64_t max_rays =
         settings_.stop.rays.value_or(default_max_rays(mesh_.patches().size()));
+    const auto spent = [&] { return statistics_.rays_divide + statistics_.rays_division_error; };
+    if (settings_.stop.rays)
+        options_.max_rays =
+            max_rays / 2 - std::min(spent() + divided_.rough.rays_energy, max_rays / 2);
+    Division division(mesh_, input_.tracer, options_, input_.monitor);
     for (unsigned attempt = 0; attempt < max_attempts; ++attempt) {
         if (divides_)
             divide_once(division);
         if (is_over())
             break;
         StopRule stop;
-        stop.rays = max_rays;
+        stop.rays = max_rays - std::min(spent(), max_rays);
         run_to(*divided_.sampling, stop);
         if (is_over())
             break;
@@ -187,7 +192,7 @@ void AutoDivision::divide_until_enough() {
         const bool is_aimed_at = sampling <= *divided_.sampling; // else by rays or steps
         const bool done =
             is_confirmed(rays_of_error(rays), sampling, division.squares()) || !is_aimed_at;
-        if (is_over() || done || rays + statistics_.rays_division_error > max_rays)
+        if (is_over() || done || divided_.rough.rays_energy + spent() > max_rays)
             break;
         division.doubt();
     }

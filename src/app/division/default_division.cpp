@@ -24,6 +24,8 @@ AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches)
     AdaptiveDivision division{.error = share_of_division * whole_error(settings),
                               .seed = settings.options.seed,
                               .threads = settings.options.threads};
+    if (settings.stop.rays)
+        division.max_rays = *settings.stop.rays;
     if (!settings.divide_given)
         division.max_patches = max_patches_by_default;
     if (settings.scene.memory) {

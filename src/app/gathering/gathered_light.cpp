@@ -101,8 +101,12 @@ class Gathering {
 ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t seed) {
     LearnOptions options{
         .seed = seed, .error = share_of_read * error_, .accuracy = settings_.error_accuracy};
-    if (settings_.stop.rays)
-        options.max_rays = *settings_.stop.rays;
+    if (settings_.stop.rays) {
+        const std::uint64_t spent = solution_.rays_energy + solution_.rays_density +
+                                    statistics_.rays_divide + statistics_.rays_division_error +
+                                    statistics_.rays_learn + statistics_.rays_gather;
+        options.max_rays = *settings_.stop.rays - std::min(spent, *settings_.stop.rays);
+    }
     const Stopwatch watch;
     const ReadError found = light_.cache->learn(target, options, workers_, monitor_.interrupted);
     statistics_.rays_learn += found.rays;

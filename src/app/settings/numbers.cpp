@@ -47,7 +47,14 @@ std::optional<double> parse_number(std::string_view text) {
 }
 
 std::optional<std::uint64_t> parse_whole(std::string_view text) {
-    return parse<std::uint64_t>(text);
+    constexpr double max_exact = 1ull << 53; // beyond, a double may stand for another number
+    if (const auto digits = parse<std::uint64_t>(text))
+        return digits;
+    const std::optional<double> value = parse_number(text);
+    if (text.find('e') == std::string_view::npos || text.starts_with('-') || !value ||
+        *value > max_exact || *value != std::floor(*value))
+        return std::nullopt;
+    return static_cast<std::uint64_t>(*value);
 }
 
 std::optional<std::vector<double>> parse_numbers(std::string_view text, char separator) {

@@ -34,7 +34,8 @@ inline constexpr NumberRange non_negative{.low = 0, .high = no_limit};
 /// Reads numbers between separators; empty where one of them is no number.
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text,
                                                                char separator);
-/// Reads a whole number of decimal digits; empty for any other text.
+/// Reads a whole number of decimal digits, or one with an exponent as 1e8; empty for any other
+/// text.
 [[nodiscard]] std::optional<std::uint64_t> parse_whole(std::string_view text);
 /// Reads "r,g,b", or one number for all three; empty if a channel is missing or out of the range.
 [[nodiscard]] std::optional<Vec3> parse_colour(std::string_view text, const NumberRange& range);

@@ -39,7 +39,10 @@ TEST_CASE("a number is all of the text and finite") {
          {"", " 1", "1 ", "1x", "nan", "inf", "-inf", "1e999", "0x10", "1,5", "+1"})
         CHECK_FALSE(parse_number(text).has_value());
     CHECK(parse_whole("18446744073709551615") == std::numeric_limits<std::uint64_t>::max());
-    for (const char* text : {"", "-1", "1.0", "1e3", "18446744073709551616", "0x1"})
+    CHECK(parse_whole("1e8") == 100'000'000);
+    CHECK(parse_whole("2.5e3") == 2500);
+    for (const char* text : {"", "-1", "1.0", "1.5", "25e-1", "-1e3", "e3", "1e3.5", "1e30",
+                             "18446744073709551616", "0x1"})
         CHECK_FALSE(parse_whole(text).has_value());
 }
 

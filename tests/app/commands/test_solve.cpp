@@ -2,6 +2,7 @@
 #include "app/check_fails.h"
 #include "app/program.h"
 #include "app/split.h"
+#include "app/statistics_file.h"
 #include "io/results/tables.h"
 #include "support/catch.h"
 
@@ -310,4 +311,21 @@ TEST_CASE("stored transport solves, or hemisphere where one of its own options i
     CHECK(unasked.code == 0);
     CHECK_THAT(unasked.err, Contains("stored-transport: ") && Contains("give or take"));
     CHECK_THAT(place.read("a.json"), Contains("\"estimated_error\": 0.0"));
+}
+
+TEST_CASE("no more rays are traced than are allowed, and nearly as many") {
+    const Workplace place;
+    place.write_room();
+    for (const std::string limit : {"1e4", "123456", "1e6"}) {
+        const auto outcome =
+            place.hemilux("solve room.obj --divide none --error .01% -o a.csv --stats s.json "
+                          "--max-rays " +
+                          limit);
+        REQUIRE(outcome.code == 0);
+        CHECK_THAT(outcome.err, Contains("--max-rays lets it go on"));
+        const double rays = test::statistic(place.read("s.json"), "rays_energy");
+        CAPTURE(limit, rays);
+        CHECK(rays <= std::stod(limit));
+        CHECK(rays > .6 * std::stod(limit));
+    }
 }

@@ -70,7 +70,12 @@ class StoredTransportSolver final : public Solver {
     }
 
     void aim_at(double error) override { plan_.aim_at(error); }
-    [[nodiscard]] bool finished() const override { return plan_.at_most(); }
+    /// No step is begun that may add less than half as many rays as there are.
+    [[nodiscard]] bool finished() const override {
+        constexpr double least_step = 1.5;
+        return plan_.at_most() || least_step * double(traced_) > max_rays() ||
+               (solution_.steps > 0 && traced_ == traced_before_);
+    }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
     /// Saves the state, also within a step that was interrupted.
@@ -165,18 +170,24 @@ class StoredTransportSolver final : public Solver {
     void plan() {
         if (planned_)
             return;
+        traced_before_ = traced_;
         if (aim_.is_outdated())
             renew_aim();
         const double relative = solution_.steps > 0 ? errors_.relative(input_.mesh, solution_) : 0;
         const double room = room_to_grow();
         if (room >= RayPlan::min_growth) {
             plan_.grow({relative, errors_.variance, errors_.from_emitters, drained_}, room,
-                       workers_);
+                       max_rays() / batches, workers_);
         } else { // as many rays as before, all anew
             light_.begin_generation();
             rays_.renew(light_.generation());
         }
         planned_ = true;
+    }
+
+    [[nodiscard]] double max_rays() const {
+        const std::optional<std::uint64_t>& rays = input_.options.stop.rays;
+        return rays ? double(*rays) : std::numeric_limits<double>::infinity();
     }
 
     /// Returns how many times as many rays may be stored.
@@ -243,7 +254,8 @@ class StoredTransportSolver final : public Solver {
     StepErrors errors_;    ///< errors of the last step
     bool planned_ = false; ///< rays of the present step, which may have been traced in part
     bool drained_ = true;  ///< the rays of the last try have seen a way out for the light
-    std::uint64_t traced_ = 0;
+    std::uint64_t traced_ = 0,
+                  traced_before_ = 0; ///< rays in all, and when the last step was planned
 };
 
 } // namespace

@@ -127,7 +127,16 @@ double RayPlan::first_mean(double mean) const {
                       std::max(std::max(max_of_first, share) * mean, least));
 }
 
-void RayPlan::grow(const ErrorSoFar& known, double room, const Workers& workers) {
+/// Returns the rays of a plan, of one batch.
+double sum_of(const PlannedRays& rays) {
+    double sum = 0;
+    for (const auto* kind : {&rays.random, &rays.to_emitters})
+        for (const std::uint32_t each : *kind)
+            sum += each;
+    return sum;
+}
+
+void RayPlan::grow(const ErrorSoFar& known, double room, double max_rays, const Workers& workers) {
     before_ = now_;
     if (has_begun()) {
         choose(known);
@@ -136,6 +145,22 @@ void RayPlan::grow(const ErrorSoFar& known, double room, const Workers& workers)
         now_.random = first_mean(first_.random);
         now_.to_emitters = first_mean(first_.to_emitters);
     }
+    do
+        allocate_all(workers);
+    while (sum_of(now_.rays) > max_rays && shrink());
+}
+
+bool RayPlan::shrink() {
+    constexpr double left = .8, least = 1.0 / 64;
+    const double random = now_.random - std::max(before_.random, 1.0);
+    const double to_emitters =
+        now_.to_emitters - std::max(before_.to_emitters, std::min(now_.to_emitters, 1.0));
+    now_.random -= (1 - left) * random;
+    now_.to_emitters -= (1 - left) * to_emitters;
+    return random + to_emitters > least;
+}
+
+void RayPlan::allocate_all(const Workers& workers) {
     workers.for_chunks(2, 1, [&](std::size_t kind, std::size_t) {
         if (kind == 0)
             now_.rays.random = allocate(weights_.random(), now_.random, before_.rays.random);

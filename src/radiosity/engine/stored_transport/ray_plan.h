@@ -58,9 +58,10 @@ class RayPlan {
     /// Makes the following steps that grow reach this error, as RayGoal::aim.
     void aim_at(double error) { goal_.aim = error; }
 
-    /// Plans more rays than before, at most `room` times as many random ones; `known` is not used
-    /// for the first step.
-    void grow(const ErrorSoFar& known, double room, const Workers& workers);
+    /// Plans more rays than before, at most `room` times as many random ones, and at most
+    /// `max_rays` of one batch in all, if a ray of each patch is not more. `known` is not used for
+    /// the first step.
+    void grow(const ErrorSoFar& known, double room, double max_rays, const Workers& workers);
     /// There is no step with less room than this.
     static constexpr double min_growth = 1.19;
 
@@ -93,6 +94,9 @@ class RayPlan {
     [[nodiscard]] double first_mean(double mean) const;
     [[nodiscard]] std::vector<std::uint32_t> allocate(std::span<const double> weights, double mean,
                                                       std::span<const std::uint32_t> already) const;
+    void allocate_all(const Workers& workers);
+    /// Takes rays from the step, if it has more than it must have.
+    [[nodiscard]] bool shrink();
     void choose(const ErrorSoFar& known);
     void split(double rays, const ErrorSoFar& known);
     [[nodiscard]] double predicted(const ErrorSoFar& known) const;

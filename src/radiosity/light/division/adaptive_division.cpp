@@ -85,7 +85,8 @@ StopRule rough_stop(const AdaptiveDivision& options, std::size_t patches) {
     return {.steps = {},
             .seconds = {},
             .error = std::clamp(options.error, tuned::min_rough_error, tuned::max_rough_error),
-            .rays = tuned::rough_rays + tuned::rough_rays_of_patch * patches};
+            .rays = std::min<std::uint64_t>(
+                tuned::rough_rays + tuned::rough_rays_of_patch * patches, options.max_rays)};
 }
 
 Solution rough_solution(const Mesh& mesh, const Tracer& tracer, const AdaptiveDivision& options,
@@ -113,7 +114,9 @@ bool Division::divide(Solution& light, double error,
                       const std::function<void(const DivisionRound&)>& after_round) {
     const std::size_t patches = mesh_.patches().size();
     for (unsigned round = 0; round < tuned::max_rounds && light.steps > 0; ++round) {
-        rays_ = 0;
+        spent_ += std::exchange(rays_, 0);
+        if (spent_ >= options_.max_rays)
+            break;
         if (!solve_if_due(light))
             break;
         const double size = reflected_square(mesh_, light), goal = error * error * size;
@@ -138,7 +141,9 @@ bool Division::solve_if_due(Solution& light) {
     const std::size_t patches = mesh_.patches().size();
     if (double(patches) < tuned::solved_at_growth * double(solved_))
         return true;
-    Solution solution = rough_solution(mesh_, tracer_, options_, monitor_, light.weight);
+    AdaptiveDivision options = options_;
+    options.max_rays -= spent_;
+    Solution solution = rough_solution(mesh_, tracer_, options, monitor_, light.weight);
     if (solution.steps == 0)
         return false;
     rays_ += solution.rays_energy;
@@ -263,7 +268,7 @@ bool Division::cut(Solution& light, double goal) {
 }
 
 std::uint64_t Division::add_slopes(Solution& light, double error) {
-    rays_ = 0;
+    spent_ += std::exchange(rays_, 0);
     weigh(light);
     const auto patches = mesh_.patches();
     const double allowed = tuned::share_of_noise * error * error * reflected_square(mesh_, light);

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace hemilux {
@@ -30,6 +31,9 @@ struct AdaptiveDivision {
     std::uint64_t seed = 1;
     unsigned threads = 0;     ///< 0: one per core. The result does not depend on it.
     std::uint64_t memory = 0; ///< bytes that a solution may use for its rays; 0: no limit
+    /// The number of rays of all rounds after which none is begun; a solution of a round takes no
+    /// more than are left.
+    std::uint64_t max_rays = std::numeric_limits<std::uint64_t>::max();
 };
 
 /// This is what was found in a round, before its patches were divided.
@@ -92,6 +96,7 @@ class Division {
     std::size_t solved_;         ///< patches of the last solution
     std::uint64_t measured_ = 0; ///< so many times
     std::uint32_t round_ = 0;
+    std::uint64_t spent_ = 0; ///< rays of the rounds before
     // These belong to this round:
     std::uint64_t rays_ = 0;
     double fresh_ = 0, fresh_squares_ = 0; ///< sums of what was measured, and of its squares
