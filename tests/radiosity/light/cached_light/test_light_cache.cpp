@@ -107,14 +107,14 @@ TEST_CASE("what gathers read becomes right where patches are coarse", "[slow]") 
         test::solve(coarse, transport(), {}, {.steps = {}, .seconds = {}, .error = .05});
     const Solution accurate =
         test::solve(fine, transport(), {}, {.steps = {}, .seconds = {}, .error = .002});
-    const std::vector<TargetPart> parts = parts_over(coarse.mesh, 400, 7);
+    const std::vector<TargetPart> parts = parts_over(coarse.mesh, 200, 7);
     const std::vector<Vec3> truth =
-        gathered(fine, SurfaceLight(fine.mesh, accurate), parts, 16'384);
+        gathered(fine, SurfaceLight(fine.mesh, accurate), parts, 8192);
     const double before =
         difference(gathered(coarse, SurfaceLight(coarse.mesh, solution), parts, 4096), truth);
     const StopFlag never;
     int within = 0;
-    constexpr int runs = 6;
+    constexpr int runs = 4;
     for (std::uint64_t seed = 1; seed <= runs; ++seed) {
         LightCache cache(coarse.mesh, coarse.bvh, solution);
         const ReadError read = cache.learn(parts, {.seed = seed, .error = .012}, Workers(0), never);
