@@ -105,7 +105,7 @@ std::vector<double> bytes_of_textures(const Scene& scene) {
 /// not known.
 double bytes_of_machine() {
 #if defined(__linux__)
-    if (struct sysinfo info {}; ::sysinfo(&info) == 0)
+    if (struct sysinfo info{}; ::sysinfo(&info) == 0)
         return (static_cast<double>(info.totalram) + static_cast<double>(info.totalswap)) *
                static_cast<double>(info.mem_unit);
 #endif

@@ -1,4 +1,4 @@
-#include "app/running/own_stack.h"
+#include "app/memory/own_stack.h"
 
 #include <cstddef>
 #include <pthread.h>
