@@ -4,6 +4,8 @@
 #include "app/command_line/generated_texts.h"
 #include "app/command_line/options.h"
 #include "app/commands/commands.h"
+#include "app/memory/memory.h"
+#include "app/memory/own_stack.h"
 #include "app/ranks/started_ranks.h"
 #include "app/running/signals.h"
 #include "app/settings/exit_code.h"
@@ -114,6 +116,11 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
         print(text);
         return exit_done;
     }
+    for (const SceneSettings* const scene :
+         {&solve_settings.scene, &compare_settings.scene, &density_settings.scene,
+          &formfactor_settings.scene, &info_settings.scene})
+        if (scene->memory) // of the command that was given
+            bound_inputs(scene->memory);
     if (solve_command.parsed()) {
         solve_settings.from = provenance(solve_command, solve_settings.options.seed);
         solve_settings.given = solve_command.options_given();
@@ -165,5 +172,6 @@ int guarded_main(int argc, const char* const* argv) {
 int main(int argc, char** argv) {
     hemilux::prepare_process();
     hemilux::keep_freed_memory();
-    return hemilux::guarded_main(argc, argv);
+    hemilux::bound_inputs({});
+    return hemilux::on_own_stack([&] { return hemilux::guarded_main(argc, argv); });
 }

@@ -65,8 +65,11 @@ class Running {
         rusage usage{};
         wait4(std::exchange(child_, -1), &status, 0, &usage);
         seconds_of_processors_ = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+        peak_bytes_ = 1024.0 * static_cast<double>(usage.ru_maxrss);
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
+    /// The most memory that it had at once, after `wait`.
+    [[nodiscard]] double peak_bytes() const { return peak_bytes_; }
     /// Whether the process has come to its end; `wait` still gives its exit code.
     [[nodiscard]] bool ended() const {
         siginfo_t info{};
@@ -105,7 +108,7 @@ class Running {
         return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) / 1e6;
     }
 
-    double seconds_of_processors_ = 0;
+    double seconds_of_processors_ = 0, peak_bytes_ = 0;
     pid_t child_;
 };
 

@@ -19,7 +19,10 @@ bool is_bare(char c) {
 class Reader {
   public:
     explicit Reader(const std::string& path)
-        : path_(path), text_(read_input(path, InputKind::stream)) {}
+        : path_(path), text_(read_input(path, InputKind::stream, {}, max_bytes + 1)) {
+        if (text_.size() > max_bytes)
+            throw InputError(path, "expected the options of a run, at most 1 MiB");
+    }
 
     std::vector<ConfigEntry> read() {
         std::string table;
@@ -36,6 +39,8 @@ class Reader {
     }
 
   private:
+    static constexpr std::size_t max_bytes = std::size_t{1} << 20;
+
     [[noreturn]] void fail(const std::string& expected) const {
         const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
         throw InputError(path_, line_,

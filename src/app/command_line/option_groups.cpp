@@ -92,6 +92,9 @@ Option add_scene_options(Command command, SceneSettings& scene) {
     command.add_action(
         "--no-textures", [&scene] { scene.textures = false; },
         "materials have the colours of the file without their textures");
+    command.add_action(
+        "--no-outside-files", [&scene] { scene.outside = Outside::refused; },
+        "refuse a scene that names files outside its folder");
     add_override(command, "--emission", scene.emission, emission_range,
                  "what a material emits, W/m2; * in its name stands for any letters; repeatable");
     add_override(command, "--reflectance", scene.reflectance, reflectance_range,

@@ -21,6 +21,7 @@ void add_detail_option(Command command, std::vector<std::string>& detail);
 /// This text says what the program's exit codes mean.
 inline constexpr const char* exit_codes = R"(
 Exit codes: 0 done, 1 wrong usage, 2 bad input, 3 output or system failure,
-130 interrupted by Ctrl-C and 143 by SIGTERM (what was computed is written).)";
+130 interrupted by Ctrl-C, 143 by SIGTERM, 129 by a terminal that was closed
+(what was computed is written).)";
 
 } // namespace hemilux

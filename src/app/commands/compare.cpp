@@ -169,14 +169,14 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     const RunFiles files = check_files(settings);
     Monitor monitor;
     InterruptGuard guard;
-    LoadedMesh loaded =
-        load_mesh(settings.scene, files, settings.options, std::span(methods).first(variants),
-                  settings.verbosity, bytes_of_compared_pictures(settings.view.size),
-                  settings.reference.empty() ? &of_reference : nullptr);
+    LoadedMesh loaded = load_mesh(
+        settings.scene, files, settings.options, std::span(methods).first(variants),
+        settings.verbosity, [&](double) { return bytes_of_compared_pictures(settings.view.size); },
+        settings.reference.empty() ? &of_reference : nullptr);
     face_lines = std::move(loaded.face_lines);
     const Mesh& mesh = loaded.mesh;
     settings.view = view_of(settings.view, loaded.view, settings.verbosity);
-    check_camera(settings.view, mesh);
+    check_camera(settings.view, mesh, settings.scene.path);
     check_own_options(settings.options, methods, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
     std::optional<Reference> reference;
@@ -205,7 +205,8 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
                                 monitor,
                                 needs,
                                 loaded.warnings,
-                                mean_light(mesh, reference->radiosity)};
+                                mean_light(mesh, reference->radiosity),
+                                loaded.bytes_needed};
     if (settings.reference.empty()) {
         const WriteReport report = write_reference(comparison);
         report.log(settings.verbosity);

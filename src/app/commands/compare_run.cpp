@@ -29,9 +29,9 @@ class Runner {
     Runner(const Comparison& comparison, const MethodVariant& variant, std::uint32_t run,
            const Budget& budget)
         : comparison_(comparison), variant_(variant), run_(run), budget_(budget),
-          options_(
-              variant.applied_to(with_memory(comparison.settings.options, comparison.settings.scene,
-                                             comparison.settings.variants.size()))) {
+          options_(variant.applied_to(
+              with_memory(comparison.settings.options, comparison.settings.scene,
+                          comparison.bytes_needed, comparison.settings.variants.size()))) {
         options_.rays = rays_of_step(options_.rays, budget.seconds, *variant.method,
                                      comparison.mesh.patches().size());
         options_.seed += run;

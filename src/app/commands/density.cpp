@@ -192,7 +192,7 @@ int density(DensitySettings settings) {
         load_geometry(settings.scene, files, settings.options, settings.verbosity);
     if (draws_pictures)
         settings.view = view_of(settings.view, view, settings.verbosity);
-    check_camera(settings.view, mesh);
+    check_camera(settings.view, mesh, settings.scene.path);
     check_patch(settings, mesh);
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted.own().wished);
@@ -217,8 +217,10 @@ int density(DensitySettings settings) {
             else
                 write_picture(made, densities, path);
         });
+    const bool interrupted(monitor.interrupted);
     report.log(settings.verbosity);
-    return report.exit_code(bool(monitor.interrupted));
+    report.log_interruption(settings.verbosity, interrupted);
+    return report.exit_code(interrupted);
 }
 
 } // namespace hemilux

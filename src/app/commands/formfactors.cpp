@@ -125,8 +125,10 @@ int formfactors(const FormFactorSettings& settings) {
             else
                 write_factor_table(path, factors->matrix, &monitor.interrupted.own().wished);
         });
+    const bool interrupted(monitor.interrupted);
     report.log(settings.verbosity);
-    return report.exit_code(bool(monitor.interrupted));
+    report.log_interruption(settings.verbosity, interrupted);
+    return report.exit_code(interrupted);
 }
 
 } // namespace hemilux

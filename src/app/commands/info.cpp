@@ -12,6 +12,7 @@
 #include "io/results/scene_info_json.h"
 #include "radiosity/engine/needs/find_needs.h"
 
+#include <cmath>
 #include <unistd.h>
 
 namespace hemilux {
@@ -25,7 +26,10 @@ std::string describe(const SceneReport& report, const Scene& scene, const SceneS
     text += report.sides ? describe(*report.sides, scene, asked.sides) : describe_both_sides(scene);
     if (asked.mesh.max_edge > 0 || asked.mesh.two_sided)
         text += info_line("patches", std::to_string(report.patches) + " (as divided)");
-    if (report.error_division)
+    if (report.error_division && std::isnan(*report.error_division))
+        text += info_line("within patches",
+                          "how much light differs is not known: half a minute was not enough");
+    else if (report.error_division)
         text += info_line("within patches",
                           "light differs by " + percent(*report.error_division) +
                               " (as they are; --divide auto divides them where it is too much)");

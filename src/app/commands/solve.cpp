@@ -87,13 +87,6 @@ bool has_pictures(const SolveSettings& settings) {
            !settings.error_map.empty();
 }
 
-double bytes_of_outputs(const SolveSettings& settings, std::size_t points) {
-    return (has_pictures(settings) ? bytes_of_picture(settings.view.size, settings.gather_pictures)
-                                   : 0) +
-           bytes_of_points(points, settings.rays_of_gather()) +
-           bytes_of_lightmap(settings.lightmap.value_or(0));
-}
-
 /// Reads the files of the run; checks its options first, and then what they are for this scene.
 Loaded load(SolveSettings settings) {
     const RunFiles files = check_files(settings);
@@ -109,15 +102,19 @@ Loaded load(SolveSettings settings) {
     if (!settings.points.path.empty())
         points = read_points(settings.points.path);
     std::vector<TargetPoints> target_points = points_of_target(settings.target);
-    LoadedMesh scene = load_mesh(settings.scene, files, settings.options, methods,
-                                 settings.verbosity, bytes_of_outputs(settings, points.size()));
+    LoadedMesh scene = load_mesh(
+        settings.scene, files, settings.options, methods, settings.verbosity, [&](double patches) {
+            return bytes_of_results(settings, patches) +
+                   bytes_of_points(points.size(), settings.rays_of_gather());
+        });
     const Mesh& mesh = scene.mesh;
     settings.divide_auto |= divides_by_default(settings, mesh.patches().size());
     check_distances(settings.points.path, points, mesh);
     settings.view = view_of(settings.view, scene.view,
                             has_pictures(settings) || !settings.report.empty() ? settings.verbosity
                                                                                : Verbosity::quiet);
-    check_camera(settings.view, mesh);
+    check_camera(settings.view, mesh, settings.scene.path);
+    check_lightmap(settings, mesh);
     check_own_options(settings.options, methods, mesh.patches().size());
     check_plain(settings, mesh.patches().size());
     return {std::move(settings), std::move(resumed), std::move(points), std::move(target_points),
@@ -135,7 +132,8 @@ Problem build(Loaded loaded, Monitor& monitor) {
     Problem problem{.loaded = std::move(loaded), .monitor = monitor};
     const SolveSettings& settings = problem.settings();
     problem.prepared = prepare(problem.loaded.scene, settings.options, settings.verbosity);
-    problem.options = with_memory(settings.options, settings.scene);
+    problem.options =
+        with_memory(settings.options, settings.scene, problem.loaded.scene.bytes_needed);
     log_line(settings.verbosity, Verbosity::verbose,
              tracer_text(problem.prepared.made.tree, problem.prepared.seconds));
     problem.target = target_of(problem);

@@ -25,7 +25,9 @@ namespace {
 std::string lost_light_of(const SolveSettings& settings, const Results& results) {
     if (results.solution.steps == 0)
         return "";
-    const LightShares light = find_light_shares(results.mesh, results.tracer);
+    LightShares light = find_light_shares(results.mesh, results.tracer);
+    if (results.statistics.emitted_far == 0)
+        light = as_in_ledger(light, results.solution.energy);
     return lost_light_text(results.mesh, results.solution.radiosity, light, settings.scene.sides);
 }
 
@@ -126,6 +128,7 @@ int finish(const SolveSettings& settings, Results results, const WriteReport& of
         std::max(0.0, started.seconds() + seconds_before - seconds_of_stages(results.statistics));
     WriteReport report = write_results(settings, results, started);
     report.add(of_steps);
+    const bool ends_early(results.monitor.interrupted); // in whatever stage
     log_line(settings.verbosity, Verbosity::normal, run_text(results.statistics));
     log_warnings(settings.verbosity, warnings);
     if (no_step)
@@ -140,10 +143,10 @@ int finish(const SolveSettings& settings, Results results, const WriteReport& of
                                         reference->standard_error)));
     }
     report.log(settings.verbosity);
-    if (interrupted)
+    if (interrupted || ends_early)
         log_line(settings.verbosity, Verbosity::quiet,
                  interruption_text(results.solution.steps, !report.written.empty()));
-    return report.exit_code(bool(results.monitor.interrupted));
+    return report.exit_code(ends_early);
 }
 
 } // namespace hemilux

@@ -61,8 +61,10 @@ StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
         else if (!stop.steps && !stop.seconds && !stop.error)
             stop.steps = StopRule::default_steps;
     }
-    if (!stop.steps && !stop.seconds && !stop.rays && settings.work().estimates_error)
+    if (!stop.steps && !stop.seconds && !stop.rays && settings.work().estimates_error) {
         stop.rays = default_max_rays(patches);
+        stop.patience = default_patience;
+    }
     return stop;
 }
 

@@ -26,6 +26,10 @@ inline constexpr std::size_t max_patches_by_default = 20'000;
 /// it.
 [[nodiscard]] std::uint64_t default_max_rays(std::size_t patches);
 
+/// The time [s] after which a run ends that has learned nothing (StopRule::patience), if nothing
+/// else ends it.
+inline constexpr double default_patience = 60;
+
 /// Returns when the run ends. `sampling` is the error that --divide auto leaves to the run, where
 /// that is known.
 [[nodiscard]] StopRule stop_rule(const SolveSettings& settings, std::size_t patches,

@@ -94,8 +94,11 @@ void gather_target(const SolveSettings& settings, const LitScene& scene, Solutio
     const LightAtPoints found =
         light_at(sensors, mesh, scene.tracer, cache.light(),
                  {.noise = share_of_rays * error * std::sqrt(double(points_of_patch)),
-                  .seed = hash_words({settings.options.seed, 9})},
+                  .seed = hash_words({settings.options.seed, 9}),
+                  .give_up = [&] { return bool(monitor.interrupted); }},
                  workers);
+    if (monitor.interrupted)
+        return;
     double noise = 0, light = 0;
     for (std::size_t k = 0; k < patches.size(); ++k) {
         const std::uint32_t i = patches[k];

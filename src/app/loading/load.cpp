@@ -59,12 +59,13 @@ std::string no_light_text(const Scene& scene, const std::vector<std::string>& ma
            (lamps.empty() ? "" : "; by their names these may be lamps: " + list_names(lamps));
 }
 
-ReadResult read_by_extension(const std::string& path, const ReadGuard& guard, bool textures) {
+ReadResult read_by_extension(const SceneSettings& settings, const ReadGuard& guard) {
+    const std::string& path = settings.path;
     const std::string extension = extension_of(path);
     if (extension == ".obj")
-        return read_obj(path, guard, textures);
+        return read_obj(path, guard, settings.textures, settings.outside);
     if (extension == ".gltf" || extension == ".glb")
-        return read_gltf(path, guard, textures);
+        return read_gltf(path, guard, settings.textures, settings.outside);
     if (extension == ".stl")
         return read_stl(path, guard);
     throw InputError(path,
@@ -106,8 +107,7 @@ void warn(LoadedMesh& loaded, const std::string& text, Verbosity verbosity) {
 } // namespace
 
 ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
-    ReadResult read = read_by_extension(settings.path, memory_guard(settings.path, settings.memory),
-                                        settings.textures);
+    ReadResult read = read_by_extension(settings, memory_guard(settings.path, settings.memory));
     for (const std::string& library : read.libraries)
         files.read("file of the scene", library);
     for (const std::string& texture : read.textures)
@@ -198,7 +198,9 @@ std::string crowd_text(const Crowd& crowd, const Mesh& mesh) {
 
 LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                      const SolveOptions& options, std::span<const Method* const> methods,
-                     Verbosity verbosity, double bytes_of_pictures, const Method* before) {
+                     Verbosity verbosity,
+                     const std::function<double(double patches)>& bytes_of_results,
+                     const Method* before) {
     const Stopwatch reading;
     check_memory_to_read(settings.path, settings.memory);
     ReadResult read = load_scene(settings, files);
@@ -206,14 +208,18 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
     check_solvable(read, settings.path);
     const double seconds = reading.seconds();
     MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods, before);
-    need.pictures = bytes_of_pictures;
+    need.results = bytes_of_results(patches_of(read.scene, settings.mesh));
     check_memory(need, settings.memory, settings.path);
     const Stopwatch dividing;
     SidedMesh sided = divide_with_sides(std::move(read.scene), settings, options, verbosity);
-    LoadedMesh loaded{
-        std::move(sided.mesh),   std::move(sided.made),      seconds,
-        dividing.seconds(),      std::move(read.face_lines), view_of_file(settings.path, read),
-        std::move(read.warnings)};
+    LoadedMesh loaded{std::move(sided.mesh),
+                      std::move(sided.made),
+                      seconds,
+                      dividing.seconds(),
+                      std::move(read.face_lines),
+                      view_of_file(settings.path, read),
+                      std::move(read.warnings),
+                      need.all()};
     if (!loaded.mesh.all_layers_are_offset())
         warn(loaded,
              settings.path +

@@ -8,6 +8,7 @@
 #include "radiosity/paper/solution/solve_error.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,16 +45,18 @@ struct LoadedMesh {
     std::vector<std::uint32_t> face_lines; ///< ReadResult
     FileView view;
     std::vector<std::string> warnings; ///< warnings that were logged
+    double bytes_needed = 0;           ///< MemoryNeed::all()
 };
 
 /// Does all of this and reports what there is to report. Throws InputError for what no method can
 /// solve: no faces, a material in use that reflects more than all light, negative emission, or a
 /// scene in which nothing emits. Throws std::runtime_error if the methods side by side, or `before`
-/// alone, would need more memory than they may.
+/// alone, would need more memory than they may, with that of the results.
 [[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                                    const SolveOptions& options,
                                    std::span<const Method* const> methods, Verbosity verbosity,
-                                   double bytes_of_pictures, const Method* before = nullptr);
+                                   const std::function<double(double patches)>& bytes_of_results,
+                                   const Method* before = nullptr);
 
 struct Prepared {
     Needs needs; ///< everything with --keep-all

@@ -9,6 +9,7 @@
 #include "radiosity/engine/needs/find_needs.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hemilux {
 
@@ -165,12 +166,23 @@ std::string describe(const Orientation& found, const Scene& scene, Sides sides) 
                                             " of what is emitted falls on "
                                             "backs, " +
                                             percent(found.light.escaped) +
-                                            " leaves the scene (with the faces as in the file)");
+                                            " escapes (with the faces as in the file)");
     return text;
 }
 
 std::string describe_both_sides(const Scene& scene) {
     return emitted_power(scene) > 0 ? info_line("both sides", both_sides_text(scene)) : "";
+}
+
+LightShares as_in_ledger(LightShares light, const EnergyBalance& energy) {
+    const auto sum = [](const Vec3& power) { return power.r + power.g + power.b; };
+    const double emitted = sum(energy.emitted), lost = light.backs + light.escaped;
+    if (!(emitted > 0))
+        return light;
+    const double escaped = std::clamp(sum(energy.escaped) / emitted, 0.0, 1.0);
+    constexpr double by_chance = .05; // three times the standard error of the paths
+    const bool agrees = std::abs(light.escaped - escaped) < by_chance;
+    return {agrees ? light.backs : std::max(lost - escaped, 0.0), escaped};
 }
 
 std::string lost_light_text(const Mesh& mesh, std::span<const Vec3> radiosity,
@@ -187,7 +199,7 @@ std::string lost_light_text(const Mesh& mesh, std::span<const Vec3> radiosity,
                         : reflected < hardly ? "hardly anything is lit: "
                                              : "much light is lost: ") +
                        percent(light.backs) + " of the emitted light fell on backs of faces, " +
-                       percent(light.escaped) + " left the scene; ";
+                       percent(light.escaped) + " escaped; ";
     if (light.backs < light.escaped)
         return text + "turn the lamp to the scene or move it, or try --sides both";
     return text + (sides == Sides::front ? "--sides auto turns faces that look away, --sides both "

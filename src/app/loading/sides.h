@@ -28,8 +28,12 @@ struct SidedMesh {
 /// Returns the same for emitters that shine to both sides.
 [[nodiscard]] std::string describe_both_sides(const Scene& scene);
 
+/// Returns the shares by what escaped in a run, so that all that is said of it agrees; what else is
+/// lost fell on backs, or on faces that lie over others.
+[[nodiscard]] LightShares as_in_ledger(LightShares light, const EnergyBalance& energy);
+
 /// Returns words for a run whose light was lost: nothing is lit, or more than nine tenths of the
-/// light fell on backs or left the scene. They are empty for other runs.
+/// light fell on backs or escaped. They are empty for other runs.
 [[nodiscard]] std::string lost_light_text(const Mesh& mesh, std::span<const Vec3> radiosity,
                                           const LightShares& light, Sides sides);
 

@@ -1,6 +1,7 @@
 #include "app/memory/memory.h"
 
 #include "app/settings/text.h"
+#include "io/files/input_file.h"
 #include "radiosity/light/layers/coplanar_overlaps.h"
 #include "radiosity/light/textures/scene_textures.h"
 
@@ -8,9 +9,15 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <system_error>
+
+#include <unistd.h>
+#if defined(__linux__)
+#include <sys/sysinfo.h>
+#endif
 
 namespace hemilux {
 
@@ -35,6 +42,15 @@ constexpr double bytes_per_pixel = 26, bytes_per_compared_pixel = 56;
 /// The bytes for the light of a pixel in its parts and of more surfaces at edges, and for a quarter
 /// of a point at which indirect light is gathered.
 constexpr double bytes_per_gathered_pixel = 154;
+/// The bytes per pixel of the layers of an .exr file, and of the file.
+constexpr double bytes_per_layered_pixel = 60;
+
+/// The bytes per patch of what is written, with what is made for it.
+namespace of_patch {
+constexpr double table = 50, mesh = 200, vtu = 550, report = 300;
+constexpr double state = 300, copies_of_state = 3; ///< of a checkpoint
+} // namespace of_patch
+
 /// The bytes of rays that wait to be summed.
 constexpr double bytes_of_ray_batches = 32e6;
 
@@ -83,6 +99,19 @@ std::vector<double> bytes_of_textures(const Scene& scene) {
     for (const std::vector<Texcoords>& set : textures_of(scene).texcoords)
         bytes.push_back(static_cast<double>(set.size() * sizeof(Texcoords)));
     return bytes;
+}
+
+/// Returns the memory of the machine, swap included; as much as there is of numbers where that is
+/// not known.
+double bytes_of_machine() {
+#if defined(__linux__)
+    if (struct sysinfo info{}; ::sysinfo(&info) == 0)
+        return (static_cast<double>(info.totalram) + static_cast<double>(info.totalswap)) *
+               static_cast<double>(info.mem_unit);
+#endif
+    const long pages = ::sysconf(_SC_PHYS_PAGES), bytes = ::sysconf(_SC_PAGESIZE);
+    return pages > 0 && bytes > 0 ? static_cast<double>(pages) * static_cast<double>(bytes)
+                                  : std::numeric_limits<double>::max();
 }
 
 } // namespace
@@ -141,8 +170,14 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
     return need;
 }
 
-SolveOptions with_memory(SolveOptions options, const SceneSettings& scene, std::size_t solvers) {
-    options.memory = scene.memory ? *scene.memory / 2 / solvers : default_transport;
+SolveOptions with_memory(SolveOptions options, const SceneSettings& scene, double needed,
+                         std::size_t solvers) {
+    options.memory = default_transport;
+    if (scene.memory) {
+        const auto limit = static_cast<double>(*scene.memory);
+        const double left = std::clamp(limit - needed, 1.0, std::max(limit / 2, 1.0));
+        options.memory = static_cast<std::uint64_t>(left / static_cast<double>(solvers)) + 1;
+    }
     return options;
 }
 
@@ -164,24 +199,50 @@ double bytes_of_points(std::size_t points, unsigned gather) {
            bytes_per_ray * std::min(rays_per_block + rays_per_point, count * rays_per_point);
 }
 
+double bytes_of_results(const SolveSettings& settings, double patches) {
+    double bytes = bytes_of_lightmap(settings.lightmap.value_or(0));
+    bool has_picture = !settings.error_map.empty(), has_layers = false;
+    for (const Output& output : settings.outputs) {
+        has_picture |= is_picture(output.kind);
+        has_layers |= output.kind == OutputKind::exr;
+        const bool is_mesh = output.kind == OutputKind::ply || output.kind == OutputKind::glb;
+        bytes += patches * (output.kind == OutputKind::vtu ? of_patch::vtu
+                            : is_mesh                      ? of_patch::mesh
+                                                           : of_patch::table);
+    }
+    if (!settings.report.empty())
+        bytes += patches * of_patch::report;
+    if (!settings.checkpoint.path.empty())
+        bytes +=
+            of_patch::copies_of_state *
+            (patches * of_patch::state + bytes_of(*settings.method, settings.options, patches));
+    const double pixels = static_cast<double>(settings.view.size.width) * settings.view.size.height;
+    return bytes +
+           (has_picture ? bytes_of_picture(settings.view.size, settings.gather_pictures) : 0) +
+           (has_layers ? bytes_per_layered_pixel * pixels : 0);
+}
+
 double bytes_of_compared_pictures(PixelSize size) {
     return bytes_per_compared_pixel * static_cast<double>(size.width) * size.height;
 }
 
 std::function<void(double bytes)> memory_guard(const std::string& path,
                                                std::optional<std::uint64_t> limit) {
-    if (!limit)
-        return {};
-    return [path, most = static_cast<double>(*limit)](double bytes) {
+    const double most = limit ? static_cast<double>(*limit) : bytes_of_machine();
+    const std::string whose = limit ? ", and --memory is " : ", and this machine has ";
+    return [path, most, whose](double bytes) {
         if (const double need = bytes_of_program + bytes; need > most)
-            throw std::runtime_error(path + ": needs " + rounded(need) +
-                                     " to be read alone, and --memory is " + rounded(most));
+            throw std::runtime_error(path + ": needs " + rounded(need) + " to be read alone" +
+                                     whose + rounded(most));
     };
 }
 
+void bound_inputs(std::optional<std::uint64_t> limit) {
+    guard_inputs(
+        [limit](const std::string& path, double bytes) { memory_guard(path, limit)(bytes); });
+}
+
 void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> limit) {
-    if (!limit)
-        return;
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     memory_guard(path, limit)(error ? 0 : static_cast<double>(size));
@@ -194,7 +255,7 @@ void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
     throw std::runtime_error(
         path + ": needs about " + rounded(need.all()) + " (scene " + rounded(need.scene) +
         ", patches " + rounded(need.mesh) + ", tree " + rounded(need.tree) + ", method " +
-        rounded(need.method) + ", pictures " + rounded(need.pictures) + "), and --memory is " +
+        rounded(need.method) + ", results " + rounded(need.results) + "), and --memory is " +
         rounded(static_cast<double>(*limit)) +
         "; a larger --max-edge, fewer --rays, a smaller --size or --no-gather need less");
 }

@@ -26,12 +26,12 @@ struct MemoryNeed {
     double pairs = 0;    ///< pairs of facets in one plane, until they are offset
     double analysis = 0; ///< sides that face the light, and what light may reach
     double method = 0;   ///< the method; of several, all
-    double pictures = 0; ///< pictures while they are written
+    double results = 0;  ///< results while they are made and written
     /// Returns the peak of all parts [bytes]. The list of patches grows by being copied, before
     /// there is anything else.
     [[nodiscard]] double all() const {
         return scene +
-               std::max(2 * mesh + pairs, mesh + tree + std::max(analysis, method + pictures));
+               std::max(2 * mesh + pairs, mesh + tree + std::max(analysis, method + results));
     }
 };
 
@@ -44,10 +44,13 @@ struct MemoryNeed {
                                      const Method* before = nullptr);
 
 /// Returns the options with the part of --memory that each of so many solvers may fill step by
-/// step.
+/// step: what the run leaves that needs `needed` bytes without that, and at most half.
 [[nodiscard]] SolveOptions with_memory(SolveOptions options, const SceneSettings& scene,
-                                       std::size_t solvers = 1);
+                                       double needed, std::size_t solvers = 1);
 
+/// Returns the bytes at the peak of writing what a run leaves behind, all at once, for so many
+/// patches [bytes]. Points of --points are counted apart.
+[[nodiscard]] double bytes_of_results(const SolveSettings& settings, double patches);
 /// Return the bytes at the peak of writing a picture of so many pixels, or for `compare` all of its
 /// pictures.
 [[nodiscard]] double bytes_of_picture(PixelSize size, bool gathered);
@@ -57,9 +60,12 @@ struct MemoryNeed {
 /// Returns the bytes of so many points of --points, while their light is gathered and written.
 [[nodiscard]] double bytes_of_points(std::size_t points, unsigned gather);
 
-/// Returns a check while the file is read, which throws std::runtime_error once that takes more.
+/// Returns a check while the file is read, which throws std::runtime_error once that takes more
+/// than the limit; without one, more than the machine has.
 [[nodiscard]] std::function<void(double bytes)> memory_guard(const std::string& path,
                                                              std::optional<std::uint64_t> limit);
+/// Makes this the check of every file that is read from now on.
+void bound_inputs(std::optional<std::uint64_t> limit);
 /// Does the same check before the file is read, by its size.
 void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> limit);
 /// Checks the need before the faces are divided. Throws std::runtime_error, which says what is

@@ -2,6 +2,7 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/text.h"
+#include "io/files/error.h"
 #include "io/meshes/baked_light.h"
 #include "io/pictures/exr.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -10,11 +11,15 @@
 
 namespace hemilux {
 
-void check_camera(const ViewSettings& view, const Mesh& mesh) {
-    if (view.camera &&
-        mesh.frame().to_local(view.camera->eye) == mesh.frame().to_local(view.camera->target))
-        throw UsageError("--camera: expected an eye and a target that differ; beside the scene's "
-                         "distance from the origin these two are the same point");
+void check_camera(const ViewSettings& view, const Mesh& mesh, const std::string& scene) {
+    if (!view.camera ||
+        mesh.frame().to_local(view.camera->eye) != mesh.frame().to_local(view.camera->target))
+        return;
+    if (view.uses_camera_of_scene) // as --camera was not given
+        throw InputError(scene, "the camera's eye and target are the same point beside the scene's "
+                                "distance from the origin; --camera auto chooses another");
+    throw UsageError("--camera: expected an eye and a target that differ; beside the scene's "
+                     "distance from the origin these two are the same point");
 }
 
 std::string camera_text(const Camera& camera) {
@@ -38,7 +43,7 @@ Camera camera_of(const ViewSettings& view, const LitScene& scene) {
 }
 
 bool PictureTime::is_over() const {
-    constexpr std::chrono::seconds moment(2);
+    constexpr std::chrono::milliseconds moment(500);
     return interrupted_ && std::chrono::steady_clock::now() - start_ > moment;
 }
 

@@ -13,8 +13,9 @@
 
 namespace hemilux {
 
-/// Throws UsageError for a camera given whose eye and target are one point at the scene's scale.
-void check_camera(const ViewSettings& view, const Mesh& mesh);
+/// Throws UsageError for a camera given whose eye and target are one point at the scene's scale,
+/// and InputError where that camera is of the file of the scene.
+void check_camera(const ViewSettings& view, const Mesh& mesh, const std::string& scene);
 
 /// Returns the option that asks for this camera: "--camera 1,2,3,4,5,6,45".
 [[nodiscard]] std::string camera_text(const Camera& camera);

@@ -99,9 +99,10 @@ class Picture {
 
 std::vector<Vec3> indirect_light(unsigned gather, const Results& results) {
     const unsigned rays = SolveSettings::bake_rays_per_gather_ray * gather;
+    const PictureTime time(results.monitor.interrupted.own().wished);
     return indirect_irradiance(results.mesh, results.tracer, results.solution.radiosity, rays,
                                hash_words({results.options.seed, 4}),
-                               Workers(results.options.threads));
+                               Workers(results.options.threads), [&] { return time.is_over(); });
 }
 
 /// Returns the axis that is upwards; reported where z was guessed.
@@ -112,31 +113,27 @@ int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
     return up;
 }
 
-/// Writes a .glb file, and its lightmap as an attempt of its own.
+/// Writes a .glb file and its lightmap, each as an attempt of its own: neither's failure takes the
+/// other.
 void write_lightmapped(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
                        const CornerClasses& classes, VertexLight light, int up,
                        WriteReport& report) {
     const int size = *settings.lightmap;
-    try {
-        const std::vector<LightmapChart> charts = find_charts(mesh, size);
-        const ChartCorners corners = divide_by_charts(mesh, classes, charts);
-        std::vector<Vec3> of_class;
-        std::vector<Vec2> texcoords;
-        for (std::size_t k = 0; k < corners.class_of.size(); ++k) {
-            of_class.push_back(light.of_class[corners.class_of[k]]);
-            texcoords.push_back(corners.place[k] / double(size));
-        }
-        light.of_class = std::move(of_class);
-        write_glb(path, mesh, corners.classes, light, settings.from, up, texcoords);
+    const std::vector<LightmapChart> charts = find_charts(mesh, size); // which fit: check_lightmap
+    const ChartCorners corners = divide_by_charts(mesh, classes, charts);
+    std::vector<Vec3> of_class;
+    std::vector<Vec2> texcoords;
+    for (std::size_t k = 0; k < corners.class_of.size(); ++k) {
+        of_class.push_back(light.of_class[corners.class_of[k]]);
+        texcoords.push_back(corners.place[k] / double(size));
+    }
+    light.of_class = std::move(of_class);
+    report.attempt(lightmap_path(path), [&] {
         std::vector<ExrChannel> channels;
         add_exr_channels(channels, "", lightmap(charts, corners, light.of_class, size));
-        report.attempt(lightmap_path(path), [&] {
-            write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
-        });
-    } catch (const LightmapTooSmall& error) {
-        throw OutputError(lightmap_path(path),
-                          std::string(error.what()) + "; --lightmap asks for more");
-    }
+        write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
+    });
+    write_glb(path, mesh, corners.classes, light, settings.from, up, texcoords);
 }
 
 void write_mesh(const SolveSettings& settings, const Output& output, const Results& results,

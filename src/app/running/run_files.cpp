@@ -2,6 +2,7 @@
 
 #include "app/settings/exit_code.h"
 #include "io/files/atomic_file.h"
+#include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/meshes/lightmap.h"
 
@@ -94,6 +95,17 @@ void check_readable(const SolveSettings& settings) {
 }
 
 } // namespace
+
+void check_lightmap(const SolveSettings& settings, const Mesh& mesh) {
+    if (!settings.lightmap)
+        return;
+    try {
+        (void)find_charts(mesh, *settings.lightmap);
+    } catch (const LightmapTooSmall& error) {
+        throw OutputError(lightmap_paths(settings).front(),
+                          std::string(error.what()) + "; --lightmap asks for more");
+    }
+}
 
 RunFiles check_files(const SolveSettings& settings) {
     std::vector<RoleAndPath> written = results_of(settings);

@@ -12,4 +12,8 @@ namespace hemilux {
 /// OutputError where a file cannot be made, InputError where one cannot be read.
 [[nodiscard]] RunFiles check_files(const SolveSettings& settings);
 
+/// Throws OutputError where the charts of the scene do not fit into the file of --lightmap, however
+/// its faces are divided.
+void check_lightmap(const SolveSettings& settings, const Mesh& mesh);
+
 } // namespace hemilux

@@ -26,7 +26,15 @@ std::vector<std::string> RunNotes::texts(double error, bool interrupted) const {
     if (!estimates_error_)
         return {hemicube_note};
     const bool known = std::isfinite(error);
-    if (!known && steps_ > 1)
+    const bool lost_patience = !known && !interrupted && stop_.patience &&
+                               steps_ >= StopRule::steps_of_patience &&
+                               rays_ < stop_.rays.value_or(0);
+    if (lost_patience)
+        notes.push_back("the error is unknown: " + short_counted(rays_, "ray", "rays") +
+                        " have found no light that is more than its own error, and after " +
+                        duration(*stop_.patience) +
+                        " the run has ended; --time or --max-rays lets it go on");
+    else if (!known && steps_ > 1)
         notes.push_back(
             "the error is unknown: no light was found that is more than its own error; "
             "more rays (--steps, --time, --max-rays), --method stored-transport or another "

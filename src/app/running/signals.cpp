@@ -2,7 +2,9 @@
 
 #include "app/settings/exit_code.h"
 #include "io/files/atomic_file.h"
+#include "io/files/temporary_file.h"
 
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <fcntl.h>
@@ -15,10 +17,16 @@ namespace hemilux {
 
 namespace {
 
+constexpr std::array<int, 4> signals{SIGINT, SIGTERM, SIGHUP, SIGXCPU};
+
 std::atomic<std::atomic<bool>*> interrupted{nullptr};
 std::atomic<int> exit_code{exit_interrupted};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
               "a signal handler must not wait for a lock");
+
+/// Returns whether a signal may come again by itself: a terminal that is closed sends one, and its
+/// shell another; the limit of processor time sends one each second.
+bool repeats(int signal) { return signal == SIGHUP || signal == SIGXCPU; }
 
 /// Does only what is safe in a signal handler (POSIX.1, signal-safety). AddressSanitizer would add
 /// warnings of its own before _exit, on a thread that is being started, and wait for their reader.
@@ -29,6 +37,9 @@ extern "C" [[gnu::no_sanitize_address]] void on_interrupt(int signal) {
         exit_code = of_shells + signal;
         return;
     }
+    if (flag && repeats(signal))
+        return;
+    remove_listed_temporaries();
     if (!flag) {
         constexpr std::string_view text = "hemilux: interrupted before there was a result\n";
         pollfd stderr_fd{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
@@ -45,13 +56,20 @@ InterruptGuard::InterruptGuard() {
     action.sa_handler = on_interrupt;
     action.sa_flags = SA_RESTART; // a write that is under way goes on
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    for (const int signal : signals) {
+        struct sigaction before {};
+        sigaction(signal, nullptr, &before);
+        if (signal == SIGHUP && before.sa_handler == SIG_IGN) // by nohup
+            continue;
+        sigaction(signal, &action, nullptr);
+    }
 }
 
 InterruptGuard::~InterruptGuard() {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    for (const int signal : signals)
+        if (struct sigaction now{};
+            sigaction(signal, nullptr, &now) == 0 && now.sa_handler == on_interrupt)
+            std::signal(signal, SIG_DFL);
     unwatch();
 }
 

@@ -1,12 +1,14 @@
 #pragma once
-// Handles Ctrl-C and SIGTERM. The first one asks the solver to stop, so that what was computed is
-// still written; the second one ends the program at once.
+// Handles the signals that ask the program to end: Ctrl-C, SIGTERM, SIGHUP of a terminal that is
+// closed (unless it is ignored, as by nohup), SIGXCPU of a limit of processor time. The first one
+// asks the solver to stop, so that what was computed is still written; a second SIGINT or SIGTERM
+// ends the program at once, and takes away files that are half-written.
 
 #include <atomic>
 
 namespace hemilux {
 
-/// A guard that, while it lives, takes SIGINT and SIGTERM for itself; there is one at a time.
+/// A guard that, while it lives, takes these signals for itself; there is one at a time.
 class InterruptGuard {
   public:
     /// Takes the signals. As long as there is nothing to save, a signal ends the program at once.
@@ -21,7 +23,7 @@ class InterruptGuard {
     void unwatch();
 };
 
-/// Returns how the program ends after the first signal: 130 or 143.
+/// Returns how the program ends after the first signal: 128 and its number, such as 130 or 143.
 [[nodiscard]] int exit_code_of_signal();
 
 /// Ends the program after a signal, when all is written: the system takes the memory back sooner

@@ -45,4 +45,10 @@ void WriteReport::log(Verbosity verbosity) const {
         hemilux::log_line(verbosity, Verbosity::quiet, "hemilux: " + message);
 }
 
+void WriteReport::log_interruption(Verbosity verbosity, bool interrupted) const {
+    if (interrupted && left_out.empty())
+        log_line(verbosity, Verbosity::quiet,
+                 failed.empty() ? "interrupted; all outputs are written" : "interrupted");
+}
+
 } // namespace hemilux

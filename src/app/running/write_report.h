@@ -21,6 +21,8 @@ struct WriteReport {
     [[nodiscard]] int exit_code(bool interrupted) const;
     /// Reports to the user on stderr.
     void log(Verbosity verbosity) const;
+    /// Reports that the user asked the program to end where nothing else says so: all was written.
+    void log_interruption(Verbosity verbosity, bool interrupted) const;
 };
 
 } // namespace hemilux

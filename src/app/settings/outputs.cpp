@@ -4,6 +4,7 @@
 #include "app/settings/extension.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
+#include "io/files/printable.h"
 
 #include <algorithm>
 #include <array>
@@ -43,8 +44,13 @@ std::string lightmap_path(const std::string& glb) {
 }
 
 void check_writable(const std::string& path) {
-    if (path == standard_output || writes_no_files())
+    if (writes_no_files())
         return;
+    if (const std::optional<int> own = own_descriptor(path)) {
+        if (const std::string reason = why_unwritable(*own); !reason.empty())
+            throw OutputError(path == standard_output ? "standard output" : path, reason);
+        return;
+    }
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (fs::is_directory(status))
@@ -118,8 +124,9 @@ void RunFiles::check(const Entry& added) const {
     for (const Entry& entry : written_)
         if ((entry.identity && entry.identity == added.identity) ||
             same_name(entry.path, added.path))
-            throw UsageError("the " + added.role + " '" + added.path + "' and the " + entry.role +
-                             " '" + entry.path + "' are one file, named twice");
+            throw UsageError(single_line("the " + added.role + " '" + added.path + "' and the " +
+                                         entry.role + " '" + entry.path +
+                                         "' are one file, named twice"));
 }
 
 RunFiles check_files(const std::vector<std::string>& outputs, const std::string& scene) {

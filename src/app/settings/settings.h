@@ -6,6 +6,7 @@
 #include "app/settings/numbers.h"
 #include "app/settings/outputs.h"
 #include "app/settings/overrides.h"
+#include "io/files/outside_files.h"
 #include "io/files/provenance.h"
 #include "io/meshes/ply.h"
 #include "io/pictures/camera.h"
@@ -33,6 +34,7 @@ struct SceneSettings {
     std::optional<Vec3> sky; ///< its radiosity [W/m2]
     Sides sides = Sides::automatic;
     bool textures = true;                ///< they are read
+    Outside outside = Outside::reported; ///< files that the scene names in other folders
     MeshOptions mesh;                    ///< two-sided with Sides::both
     std::optional<std::uint64_t> memory; ///< bytes that a run may need
 };

@@ -29,7 +29,7 @@ void log_line(Verbosity wanted, Verbosity least, const std::string& line) {
 
 void log_path(Verbosity wanted, Verbosity least, const std::string& verb, const std::string& path) {
     if (wanted >= least && can_log())
-        std::fprintf(stderr, "%s %s\n", verb.c_str(), printable_message(path).c_str());
+        std::fprintf(stderr, "%s %s\n", verb.c_str(), printable_message(single_line(path)).c_str());
 }
 
 void log_warnings(Verbosity wanted, const std::vector<std::string>& warnings) {
@@ -37,7 +37,7 @@ void log_warnings(Verbosity wanted, const std::vector<std::string>& warnings) {
     const bool all = wanted == Verbosity::verbose || warnings.size() <= max_warnings;
     const std::size_t shown = all ? warnings.size() : max_warnings;
     for (std::size_t i = 0; i < shown; ++i)
-        log_line(wanted, Verbosity::normal, "warning: " + warnings[i]);
+        log_line(wanted, Verbosity::normal, "warning: " + single_line(warnings[i]));
     if (!all)
         log_line(wanted, Verbosity::normal,
                  formatted("warning: and %zu more (-v shows all)", warnings.size() - shown));

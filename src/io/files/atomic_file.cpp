@@ -80,18 +80,22 @@ bool wait_until_writable(int descriptor) {
     return true;
 }
 
+std::string why_unwritable(int descriptor) {
+    const int flags = ::fcntl(descriptor, F_GETFL);
+    if (flags < 0 || (flags & O_ACCMODE) == O_RDONLY)
+        return "is closed, or not open for writing";
+    pollfd stream{.fd = descriptor, .events = POLLOUT, .revents = 0};
+    if (::poll(&stream, 1, 0) > 0 && (stream.revents & POLLERR) != 0)
+        return std::string("cannot write: ") + std::strerror(EPIPE);
+    return {};
+}
+
 AtomicFile::AtomicFile(const std::string& path)
-    : path_(path == standard_output ? "standard output" : path),
-      target_(path == standard_output ? "/dev/stdout" : path) {
+    : path_(path == standard_output ? "standard output" : path), target_(path) {
     if (no_files)
         return;
-    if (path == standard_output) {
-        if (is_written_as_it_is_open(STDOUT_FILENO))
-            descriptor_ = ::dup(STDOUT_FILENO);
-        else
-            open_pipe();
-        if (descriptor_ < 0)
-            fail("open");
+    if (const std::optional<int> own = own_descriptor(path)) {
+        open_own(*own);
         return;
     }
 
@@ -109,12 +113,25 @@ AtomicFile::AtomicFile(const std::string& path)
     if (is_new || fs::is_regular_file(status)) {
         const fs::path folder = fs::path(target_).parent_path();
         clean(folder);
-        TemporaryFile temporary = is_new ? make_temporary(folder) : make_temporary(folder, 0600);
-        temporary_ = std::move(temporary.path);
-        descriptor_ = temporary.descriptor;
+        temporary_ = is_new ? make_temporary(folder) : make_temporary(folder, 0600);
+        descriptor_ = temporary_.descriptor;
     } else {
         open_pipe();
     }
+    if (descriptor_ < 0)
+        fail("open");
+}
+
+/// Opens once more what this process has open, so that waits for a reader can end. What cannot be
+/// opened again is used as it is.
+void AtomicFile::open_own(int descriptor) {
+    if (const std::string reason = why_unwritable(descriptor); !reason.empty())
+        throw OutputError(path_, reason);
+    if (!is_written_as_it_is_open(descriptor))
+        descriptor_ = ::open(("/dev/fd/" + std::to_string(descriptor)).c_str(),
+                             O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (descriptor_ < 0)
+        descriptor_ = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
     if (descriptor_ < 0)
         fail("open");
 }
@@ -135,13 +152,24 @@ AtomicFile::~AtomicFile() {
     if (descriptor_ < 0)
         return;
     ::close(descriptor_);
-    if (!temporary_.empty())
-        ::unlink(temporary_.c_str());
+    remove_temporary();
+}
+
+void AtomicFile::remove_temporary() {
+    if (temporary_.path.empty())
+        return;
+    ::unlink(temporary_.path.c_str());
+    forget_temporary(temporary_);
 }
 
 void AtomicFile::write(std::string_view bytes) {
     if (descriptor_ < 0)
         return;
+    if (bytes.size() >= buffer_size) {
+        flush();
+        write_all(bytes);
+        return;
+    }
     buffer_ += bytes;
     if (buffer_.size() >= buffer_size)
         flush();
@@ -152,20 +180,21 @@ void AtomicFile::commit(Durable durable) {
         return;
     flush();
     take_over_access();
-    if (durable == Durable::yes && !temporary_.empty() && ::fsync(descriptor_) != 0)
+    const bool is_temporary = !temporary_.path.empty();
+    if (durable == Durable::yes && is_temporary && ::fsync(descriptor_) != 0)
         fail("write");
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
     const bool renamed =
-        closed == 0 && (temporary_.empty() || ::rename(temporary_.c_str(), target_.c_str()) == 0);
+        closed == 0 && (!is_temporary || ::rename(temporary_.path.c_str(), target_.c_str()) == 0);
     if (renamed) {
+        forget_temporary(temporary_);
         if (durable == Durable::yes)
             sync_folder();
         return;
     }
     const int error = errno;
-    if (!temporary_.empty())
-        ::unlink(temporary_.c_str());
+    remove_temporary();
     errno = error;
     fail(closed == 0 ? "rename" : "write");
 }
@@ -187,7 +216,7 @@ void AtomicFile::sync_folder() const {
 /// than all others.
 void AtomicFile::take_over_access() const {
     struct stat old {};
-    if (temporary_.empty() || ::stat(target_.c_str(), &old) != 0)
+    if (temporary_.path.empty() || ::stat(target_.c_str(), &old) != 0)
         return;
     constexpr mode_t all = 0777, group = 0070, others = 0007;
     mode_t mode = old.st_mode & all;
@@ -198,7 +227,11 @@ void AtomicFile::take_over_access() const {
 }
 
 void AtomicFile::flush() {
-    std::string_view left = buffer_;
+    write_all(buffer_);
+    buffer_.clear();
+}
+
+void AtomicFile::write_all(std::string_view left) {
     while (!left.empty()) {
         const ssize_t written = ::write(descriptor_, left.data(), left.size());
         if (written >= 0) {
@@ -210,7 +243,6 @@ void AtomicFile::flush() {
             fail("write");
         }
     }
-    buffer_.clear();
 }
 
 void AtomicFile::fail(const char* action) const {

@@ -2,19 +2,20 @@
 // An output file that appears complete or not at all. It is written to a temporary file in the same
 // folder, which takes the final name only when everything is in it.
 
+#include "io/files/file_identity.h"
+#include "io/files/temporary_file.h"
+
 #include <atomic>
 #include <string>
 #include <string_view>
 
 namespace hemilux {
 
-/// The path that stands for standard output, which is written directly.
-inline constexpr std::string_view standard_output = "-";
-
 class AtomicFile {
   public:
     /// Opens the temporary file. A path that names something other than a regular file (a pipe, a
-    /// device) is written directly. A symbolic link stays one, and its target is replaced or made.
+    /// device) is written directly, and so is what this process has open (own_descriptor), behind
+    /// what is there. A symbolic link stays one, and its target is replaced or made.
     /// A file that replaces another has its mode and, where the system allows it, its owner and
     /// group. Throws OutputError and, like `write` and `commit`, Interrupted (end_waits_on).
     explicit AtomicFile(const std::string& path);
@@ -32,18 +33,25 @@ class AtomicFile {
     void commit(Durable durable = Durable::no);
 
   private:
+    void open_own(int descriptor);
     void open_pipe();
+    void remove_temporary();
     void take_over_access() const;
     void flush();
+    void write_all(std::string_view left);
     void sync_folder() const;
     [[noreturn]] void fail(const char* action) const;
 
-    std::string path_;      ///< path as the user named it, for messages
-    std::string target_;    ///< links resolved
-    std::string temporary_; ///< empty when written directly
+    std::string path_;        ///< path as the user named it, for messages
+    std::string target_;      ///< links resolved
+    TemporaryFile temporary_; ///< its path is empty when written directly
     std::string buffer_;
     int descriptor_ = -1;
 };
+
+/// Returns why what this process has open takes no bytes: it is closed, open for reading alone, or
+/// nobody reads the pipe. Empty where nothing is known against it.
+[[nodiscard]] std::string why_unwritable(int descriptor);
 
 /// Makes this process open and write no file from this call on: another process writes what this
 /// one would.

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
+#include <utility>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -63,12 +65,15 @@ class Source {
     Source(const Source&) = delete;
     Source& operator=(const Source&) = delete;
 
-    void check(InputKind kind) {
+    /// Returns the bytes that there are to be read; none where that is not known.
+    std::optional<std::uint64_t> check(InputKind kind) {
         struct stat status {};
         if (::fstat(number_, &status) != 0)
             fail_to_read(path_);
         check_type(path_, status.st_mode, kind);
         waits_for_writer_ = S_ISFIFO(status.st_mode);
+        return S_ISREG(status.st_mode) ? std::optional(static_cast<std::uint64_t>(status.st_size))
+                                       : std::nullopt;
     }
     /// Returns the number of bytes read; 0 at the end.
     std::size_t read(char* to, std::size_t size) {
@@ -106,6 +111,11 @@ class Source {
     int waited_ = 0;
 };
 
+InputGuard& input_guard() {
+    static InputGuard guard;
+    return guard;
+}
+
 } // namespace
 
 void check_input(const std::string& path, InputKind kind) {
@@ -126,17 +136,36 @@ bool is_input(const std::string& path, InputKind kind) {
     }
 }
 
-std::string read_input(const std::string& path, InputKind kind, const InputCheck& check) {
+void guard_inputs(InputGuard guard) { input_guard() = std::move(guard); }
+
+void ask_for_input(const std::string& path, double bytes) {
+    if (input_guard())
+        input_guard()(path, bytes);
+}
+
+/// A file's first bytes are looked at before memory is taken for all of them: what they are may end
+/// the reading. Of a pipe nobody knows the length, so its text grows by being copied.
+std::string read_input(const std::string& path, InputKind kind, const InputCheck& check,
+                       std::uint64_t most) {
     check_input(path, kind);
     Source source(path);
-    source.check(kind);                                 // it may have been replaced since
-    constexpr std::size_t least = std::size_t{1} << 14; // most files are small
-    constexpr std::size_t most = std::size_t{1} << 24;
+    const std::optional<std::uint64_t> size = source.check(kind); // it may have been replaced since
+    constexpr std::size_t least = std::size_t{1} << 14;           // most files are small
+    constexpr std::size_t piece = std::size_t{1} << 24;
+    if (size)
+        ask_for_input(path, static_cast<double>(std::min(*size, most)));
     std::string content;
     std::size_t used = 0;
-    for (;;) {
-        if (used == content.size())
-            content.resize(used + std::clamp(used / 2, least, most));
+    while (used < most) {
+        if (used == content.size()) {
+            if (used == least && size && *size > least)
+                content.reserve(static_cast<std::size_t>(std::min(*size + 1, most)));
+            const std::size_t next = used + static_cast<std::size_t>(std::min<std::uint64_t>(
+                                                std::clamp(used / 2, least, piece), most - used));
+            if (next > content.capacity() && next > least)
+                ask_for_input(path, static_cast<double>(used + next));
+            content.resize(next);
+        }
         const std::size_t count = source.read(content.data() + used, content.size() - used);
         used += count;
         if (count == 0)

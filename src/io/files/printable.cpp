@@ -73,6 +73,16 @@ std::string printable(std::string_view text) {
     return result;
 }
 
+std::string single_line(std::string_view text) {
+    std::string result;
+    for (const char c : text)
+        if (static_cast<unsigned char>(c) < ' ' || c == '\x7f')
+            result += replacement;
+        else
+            result += c;
+    return result;
+}
+
 std::string printable_message(std::string_view text) {
     constexpr std::size_t longest = 1000, of_end = 300;
     constexpr std::string_view left_out = " ... ";

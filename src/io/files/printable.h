@@ -12,8 +12,12 @@ namespace hemilux {
 /// valid UTF-8.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// Does the same for a message, and leaves out the middle of each line that is longer than a
-/// thousand bytes.
+/// Returns a name or a path as part of one line: line ends, tabs and other control characters of
+/// ASCII become U+FFFD, so that no name looks like a message of its own.
+[[nodiscard]] std::string single_line(std::string_view text);
+
+/// Does the same as printable() for a message, and leaves out the middle of each line that is
+/// longer than a thousand bytes.
 [[nodiscard]] std::string printable_message(std::string_view text);
 
 } // namespace hemilux

@@ -1,7 +1,10 @@
 #include "io/files/temporary_file.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstring>
+#include <memory>
 #include <system_error>
 
 #include <fcntl.h>
@@ -21,6 +24,24 @@ std::string new_name() {
     static std::atomic<unsigned> counter{0};
     return std::string(prefix) + std::to_string(::getpid()) + "-" +
            std::to_string(counter.fetch_add(1)) + std::string(suffix);
+}
+
+/// The list. A slot belongs to the file in it until that is forgotten; what it holds belongs to who
+/// takes it out: the file's thread or a signal handler.
+std::array<std::atomic<char*>, 64> listed{};
+static_assert(std::atomic<char*>::is_always_lock_free, "a signal handler must not wait for a lock");
+
+/// Returns the slot of a path. Where none is free, a file that is left behind stays until another
+/// process cleans up.
+std::size_t listed_as(const std::string& path) {
+    auto copy = std::make_unique<char[]>(path.size() + 1);
+    std::memcpy(copy.get(), path.c_str(), path.size() + 1);
+    for (std::size_t slot = 0; slot < listed.size(); ++slot)
+        if (char* none = nullptr; listed[slot].compare_exchange_strong(none, copy.get())) {
+            (void)copy.release();
+            return slot;
+        }
+    return TemporaryFile::no_slot;
 }
 
 bool is_number(std::string_view text) {
@@ -64,13 +85,24 @@ TemporaryFile make_temporary(const fs::path& folder, unsigned mode) {
         const std::string path = (folder / new_name()).string();
         const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
         if (descriptor < 0)
-            return {path, -1};
+            return {path};
         // Some file systems have no locks; there none is ever taken for stale either.
         ::flock(descriptor, LOCK_EX);
         if (has_name(descriptor))
-            return {path, descriptor};
+            return {path, descriptor, listed_as(path)};
         ::close(descriptor);
     }
+}
+
+void forget_temporary(const TemporaryFile& file) {
+    if (file.slot < listed.size())
+        delete[] listed[file.slot].exchange(nullptr);
+}
+
+void remove_listed_temporaries() noexcept {
+    for (std::atomic<char*>& slot : listed)
+        if (const char* const path = slot.exchange(nullptr))
+            ::unlink(path);
 }
 
 void remove_stale_temporaries(const fs::path& folder) {

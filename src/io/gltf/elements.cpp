@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 
 namespace hemilux::gltf {
 namespace {
@@ -57,8 +59,10 @@ std::string_view Buffers::content(std::size_t buffer) {
     if (uri.empty() && buffer == 0 && container_.binary)
         return check(*container_.binary);
     std::optional<std::string>& content = contents_[buffer];
-    if (!content)
+    if (!content) {
         content = read(buffer, uri);
+        bytes_ += static_cast<double>(content->size());
+    }
     return check(*content);
 }
 
@@ -66,16 +70,21 @@ std::string Buffers::read(std::size_t buffer, const std::string& uri) {
     const std::string place = "/buffers/" + std::to_string(buffer) + "/uri";
     if (uri.empty())
         throw InputError(path_, place + ": expected a URI, as the file has no binary chunk for it");
-    if (guard_)
-        guard_(static_cast<double>(uri.size() + container_.content.size()));
+    const auto ask = [&](double bytes) {
+        if (guard_)
+            guard_(static_cast<double>(container_.content.size()) + bytes_ + bytes);
+    };
+    ask(static_cast<double>(uri.size()));
     auto [bytes, file] = content_of_uri(uri, path_, place);
     if (bytes)
         return std::move(*bytes);
     files_.push_back(file);
-    return read_input(file, InputKind::regular, [&](std::string_view content) {
-        if (guard_)
-            guard_(static_cast<double>(content.size() + container_.content.size()));
-    });
+    check_outside(file, place, "buffer");
+    const std::uint64_t length = document_.buffers[buffer].length;
+    if (std::error_code error; is_input(file, InputKind::regular))
+        ask(static_cast<double>(
+            std::min<std::uint64_t>(std::filesystem::file_size(file, error), length)));
+    return read_input(file, InputKind::regular, {}, length);
 }
 
 Elements::Elements(Buffers& buffers, std::size_t accessor)

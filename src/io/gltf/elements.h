@@ -16,8 +16,8 @@ class Buffers {
   public:
     /// All arguments must outlive this object.
     Buffers(const Document& document, const Container& container, const std::string& path,
-            const ReadGuard& guard)
-        : document_(document), container_(container), path_(path), guard_(guard),
+            const ReadGuard& guard, OutsideFiles& outside)
+        : document_(document), container_(container), path_(path), guard_(guard), outside_(outside),
           contents_(document.buffers.size()) {}
 
     /// Returns the bytes of a view. Throws InputError where the buffer cannot be read or is shorter
@@ -26,6 +26,10 @@ class Buffers {
 
     [[nodiscard]] const Document& document() const { return document_; }
     [[nodiscard]] const std::string& path() const { return path_; }
+    /// Is called before a file is read that the document names at this place.
+    void check_outside(const std::string& file, const std::string& place, const std::string& what) {
+        outside_.check(file, path_ + ": " + place, what);
+    }
     /// Returns the files that were read.
     [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
 
@@ -37,7 +41,9 @@ class Buffers {
     const Container& container_;
     const std::string& path_;
     const ReadGuard& guard_;
+    OutsideFiles& outside_;
     std::vector<std::optional<std::string>> contents_;
+    double bytes_ = 0; ///< of the contents
     std::vector<std::string> files_;
 };
 

@@ -26,10 +26,11 @@ constexpr double metal = 0.5;
 
 class Reader {
   public:
-    Reader(const std::string& path, const ReadGuard& guard, bool textures)
+    Reader(const std::string& path, const ReadGuard& guard, bool textures, Outside outside)
         : path_(path), guard_(guard), textures_(textures), container_(read_container(path, guard)),
           json_(container_.json, path), document_(read_document(json_.root())),
-          buffers_(document_, container_, path_, guard_), maps_(buffers_, guard_),
+          outside_(path, outside, result_.warnings),
+          buffers_(document_, container_, path_, guard_, outside_), maps_(buffers_, guard_),
           instances_(instances_of(document_)) {}
 
     ReadResult read();
@@ -49,17 +50,20 @@ class Reader {
     std::string path_;
     const ReadGuard& guard_;
     bool textures_;
+    ReadResult result_;
     Container container_;
     JsonDocument json_;
     Document document_;
+    OutsideFiles outside_;
     Buffers buffers_;
     TextureMaps maps_;
     std::vector<Instance> instances_;
     std::vector<bool> used_; ///< materials
-    ReadResult result_;
 };
 
 ReadResult Reader::read() {
+    if (!container_.warning.empty())
+        result_.warnings.push_back(path_ + ": " + container_.warning);
     count_triangles_of_scene();
     add_materials();
     own_textures_of(result_.scene).texcoords.resize(maps_.sets());
@@ -147,10 +151,14 @@ void Reader::mark_two_sided() {
 void Reader::add_camera(const Instance& instance) {
     if (result_.camera)
         return;
+    const Node& node = document_.nodes[instance.node];
     result_.camera = camera_of(document_, instance);
     if (!result_.camera)
         return;
-    const Node& node = document_.nodes[instance.node];
+    constexpr double farthest = 0x1p52; // from where a step of 1 is a step in doubles
+    if (!(glm::length(result_.camera->eye) < farthest))
+        fail("/nodes/" + std::to_string(instance.node),
+             "expected a transform that gives the camera a place and a direction");
     const std::string& name = document_.cameras[*node.camera].name;
     result_.camera_name = name_or(name.empty() ? node.name : name, "camera", *node.camera);
 }
@@ -218,8 +226,9 @@ void Reader::collect_warnings(const MeshTally& meshes) {
 } // namespace
 } // namespace gltf
 
-ReadResult read_gltf(const std::string& path, const ReadGuard& guard, bool textures) {
-    return gltf::Reader(path, guard, textures).read();
+ReadResult read_gltf(const std::string& path, const ReadGuard& guard, bool textures,
+                     Outside outside) {
+    return gltf::Reader(path, guard, textures, outside).read();
 }
 
 } // namespace hemilux

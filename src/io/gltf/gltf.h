@@ -16,8 +16,8 @@
 namespace hemilux {
 
 /// Throws InputError with the JSON path of what is wrong. Without `textures`, colours are the
-/// factors alone.
+/// factors alone. Files outside the scene's folder are read, with a warning, or refused.
 [[nodiscard]] ReadResult read_gltf(const std::string& path, const ReadGuard& guard = {},
-                                   bool textures = true);
+                                   bool textures = true, Outside outside = Outside::reported);
 
 } // namespace hemilux

@@ -1,7 +1,6 @@
 #include "io/gltf/instances.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace hemilux::gltf {
@@ -28,8 +27,7 @@ std::optional<Camera> camera_of(const Document& document, const Instance& instan
     const CameraInfo& camera = document.cameras[*document.nodes[instance.node].camera];
     const Vec3 eye(instance.to_world[3]), back(instance.to_world[2]), up(instance.to_world[1]);
     const double length = glm::length(back);
-    if (!camera.vertical_fov || !(length > 0 && glm::length(up) > 0) ||
-        !std::isfinite(length + glm::length(eye) + glm::length(up)))
+    if (!camera.vertical_fov || length == 0 || glm::length(up) == 0)
         return {};
     return Camera{.eye = eye,
                   .target = eye - back / length,

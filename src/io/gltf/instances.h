@@ -23,8 +23,8 @@ struct Instance {
 [[nodiscard]] std::vector<Instance> instances_of(const Document& document);
 
 /// Returns the camera of a node that has one, which looks along -z of the node, with y up (section
-/// 3.10.3). It returns none where the camera is not a perspective one or its transform is not
-/// finite.
+/// 3.10.3). It returns none where the camera is not a perspective one or has no direction. The
+/// transform may not be finite, and then the camera is neither.
 [[nodiscard]] std::optional<Camera> camera_of(const Document& document, const Instance& instance);
 
 /// Returns the name that a part of the file has, else its kind and number.

@@ -1,6 +1,7 @@
 #include "io/gltf/texture_maps.h"
 
 #include "io/files/error.h"
+#include "io/files/input_file.h"
 #include "io/gltf/document/uri.h"
 #include "radiosity/light/textures/scene_textures.h"
 
@@ -67,6 +68,8 @@ std::shared_ptr<const Texture> TextureMaps::read_image(std::size_t image) {
     if (bytes)
         return files_.decode(*bytes, key);
     paths_.push_back(file);
+    if (is_input(file, InputKind::regular))
+        buffers_.check_outside(file, place, "texture");
     return files_.read(file);
 }
 

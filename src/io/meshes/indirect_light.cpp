@@ -1,12 +1,14 @@
 #include "io/meshes/indirect_light.h"
 
+#include "io/files/error.h"
 #include "radiosity/paper/rays/patch_start.h"
 
 namespace hemilux {
 
 std::vector<Vec3> indirect_irradiance(const Mesh& mesh, const Tracer& tracer,
                                       std::span<const Vec3> radiosity, unsigned rays,
-                                      std::uint64_t seed, const Workers& workers) {
+                                      std::uint64_t seed, const Workers& workers,
+                                      const std::function<bool()>& give_up) {
     std::vector<Vec3> irradiance(mesh.patches().size(), Vec3(0.0));
     const auto gather = [&](std::uint32_t patch) {
         const PatchStart start(mesh, patch);
@@ -21,7 +23,9 @@ std::vector<Vec3> indirect_irradiance(const Mesh& mesh, const Tracer& tracer,
                 irradiance[patch] += radiosity[receiver] - mesh.material(receiver).emission;
         irradiance[patch] /= rays;
     };
-    workers.for_chunks(irradiance.size(), 16, [&](std::size_t begin, std::size_t end) {
+    workers.for_chunks(irradiance.size(), 4, [&](std::size_t begin, std::size_t end) {
+        if (give_up && give_up())
+            throw Interrupted();
         for (std::size_t patch = begin; patch < end; ++patch)
             gather(static_cast<std::uint32_t>(patch));
     });

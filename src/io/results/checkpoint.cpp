@@ -149,13 +149,22 @@ std::uint64_t scene_hash(const Mesh& mesh) {
     return sum;
 }
 
-std::string sealed_checkpoint(std::string_view content) {
+namespace {
+
+/// Returns what stands before the content, and behind it.
+std::pair<std::string, std::string> seal_of(std::string_view content) {
     StateWriter length, sum;
     length.add(std::uint64_t{content.size()});
-    const std::string first_line = std::string(magic) + std::string(format) + "\n";
-    std::string bytes = first_line + length.bytes() + std::string(content);
-    sum.add(checksum_of(bytes));
-    return bytes + sum.bytes();
+    std::string first = std::string(magic) + std::string(format) + "\n" + length.bytes();
+    sum.add(checksum_of(content, checksum_of(first)));
+    return {std::move(first), std::move(sum).bytes()};
+}
+
+} // namespace
+
+std::string sealed_checkpoint(std::string_view content) {
+    const auto [before, behind] = seal_of(content);
+    return before + std::string(content) + behind;
 }
 
 std::string to_bytes(const Checkpoint& checkpoint) {
@@ -181,15 +190,22 @@ Checkpoint checkpoint_from(std::string_view bytes, const std::string& file) {
 }
 
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
+    const std::string content = content_of(checkpoint);
+    const auto [before, behind] = seal_of(content);
     AtomicFile file(path);
-    file.write(to_bytes(checkpoint));
+    for (const std::string_view part :
+         {std::string_view(before), std::string_view(content), std::string_view(behind)})
+        file.write(part);
     file.commit(AtomicFile::Durable::yes);
 }
 
 Checkpoint read_checkpoint(const std::string& path) {
     // A large file of another kind is not read to its end.
     const auto check = [&](std::string_view bytes) { check_first_line(bytes, path); };
-    return checkpoint_from(read_input(path, InputKind::regular, check), path);
+    const std::string bytes = read_input(path, InputKind::regular, check);
+    constexpr double copies = 2; // the state, beside the file
+    ask_for_input(path, copies * static_cast<double>(bytes.size()));
+    return checkpoint_from(bytes, path);
 }
 
 } // namespace hemilux

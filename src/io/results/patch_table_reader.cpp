@@ -64,6 +64,8 @@ void check(const std::string& path, std::size_t line, const Record& record, std:
 
 PatchTable read_patch_table(const std::string& path) {
     const std::string content = read_text_file(path, InputKind::stream);
+    constexpr double bytes_per_byte = 4; // the table, which grows by being copied
+    ask_for_input(path, bytes_per_byte * static_cast<double>(content.size()));
     csv::Reader reader(path, content);
     std::vector<std::string> fields;
     if (!reader.next(fields))

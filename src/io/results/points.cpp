@@ -3,6 +3,7 @@
 #include "geometry/numeric.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
+#include "io/files/input_file.h"
 #include "io/files/text_reader.h"
 #include "io/files/text_words.h"
 #include "io/results/csv.h"
@@ -70,12 +71,16 @@ NamedPoint point_from(const std::string& path, std::size_t line, std::string_vie
 
 std::vector<NamedPoint> read_points(const std::string& path) {
     const std::string content = read_text_file(path, InputKind::stream);
+    const auto rows = static_cast<std::size_t>(std::ranges::count(content, '\n')) + 1;
+    ask_for_input(path, static_cast<double>(content.size() + rows * sizeof(NamedPoint)));
     std::vector<NamedPoint> points;
+    points.reserve(rows);
     bool first = true;
     std::size_t line = 0;
     for (std::string_view left = content; !left.empty();) {
         const std::size_t size = std::min(left.find_first_of("\r\n"), left.size());
-        const std::string_view row = trimmed(left.substr(0, std::min(size, left.find('#'))));
+        const std::string_view whole = left.substr(0, size);
+        const std::string_view row = trimmed(whole.substr(0, whole.find('#')));
         left.remove_prefix(size);
         left.remove_prefix(left.starts_with("\r\n") ? 2 : left.empty() ? 0 : 1);
         ++line;

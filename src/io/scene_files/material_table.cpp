@@ -96,7 +96,7 @@ void MaterialTable::read_library(const std::string& file, const std::string& whe
     const std::optional<FileIdentity> identity = identity_of(file);
     if (!identity || !libraries_read_.insert(*identity).second)
         return;
-    warn_of_outside(file, where);
+    outside_.check(file, where.substr(0, where.size() - 2), "material library");
     /// The memory per character of the shortest statements that make a material.
     constexpr double bytes_per_character = 16;
     std::error_code error;
@@ -110,21 +110,6 @@ void MaterialTable::read_library(const std::string& file, const std::string& whe
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
     for (const std::string& texture : read.textures)
         result_.textures.push_back((folder / texture).string());
-}
-
-/// Warns of a library outside the scene's folder, with links followed. The scene's author chose the
-/// file, and the reader of a scene from elsewhere may not expect it.
-void MaterialTable::warn_of_outside(const std::string& file, const std::string& where) {
-    namespace fs = std::filesystem;
-    std::error_code error;
-    const fs::path parent = fs::path(path_).parent_path();
-    const fs::path folder = fs::canonical(parent.empty() ? fs::path(".") : parent, error);
-    const fs::path inside = fs::canonical(file, error).lexically_relative(folder);
-    if (error || (!inside.empty() && *inside.begin() != "..") || std::exchange(outside_, true))
-        return;
-    result_.warnings.push_back(
-        where + "material library " + in_quotes(file) +
-        " lies outside the scene's folder; further ones that do are not named");
 }
 
 void MaterialTable::define(const std::string& file, const MtlMaterial& material) {
@@ -164,19 +149,29 @@ void MaterialTable::finish() {
     warn_of_textures();
 }
 
+/// Returns a texture of a material's library; empty where there is none. As paths of other machines
+/// are common, the last part of the name is looked for too.
+std::shared_ptr<const Texture> MaterialTable::texture_of(std::size_t material,
+                                                         const std::string& name) {
+    const std::filesystem::path folder(entries_[material].folder), given(name);
+    for (const std::filesystem::path& candidate : {folder / given, folder / given.filename()}) {
+        const std::string file = candidate.string();
+        if (is_input(file, InputKind::regular))
+            outside_.check(file, result_.material_source[material], "texture");
+        if (std::shared_ptr<const Texture> read = texture_files_.read(file))
+            return read;
+    }
+    return nullptr;
+}
+
 /// Kd or Ke is a factor of its texture, 1 where there is none. The picture's lower left corner is
-/// the origin of coordinates. As paths of other machines are common, the last part of the name is
-/// looked for too.
+/// the origin of coordinates.
 void MaterialTable::add_texture(std::size_t material, const std::optional<MtlTexture>& texture,
                                 Vec3 Material::*colour, TextureMap MaterialTextures::*map,
                                 const std::optional<Vec3>& factor) {
     if (!texture)
         return;
-    namespace fs = std::filesystem;
-    const fs::path folder(entries_[material].folder), name(texture->name);
-    std::shared_ptr<const Texture> read = texture_files_.read((folder / name).string());
-    if (!read)
-        read = texture_files_.read((folder / name.filename()).string());
+    const std::shared_ptr<const Texture> read = texture_of(material, texture->name);
     if (!read) {
         if (missing_++ == 0)
             first_missing_ = texture->name;

@@ -3,6 +3,7 @@
 // comes first. Of several definitions of a name the first is taken.
 
 #include "io/files/file_identity.h"
+#include "io/files/outside_files.h"
 #include "io/scene_files/mtl.h"
 #include "io/scene_files/read_result.h"
 #include "io/textures/texture_files.h"
@@ -26,10 +27,13 @@ class MaterialTable {
     /// outlive the table, gets materials and where they stand, textures, warnings and what was
     /// read. Before a library is read, `before_library` is called with about the bytes that it will
     /// take; what it throws ends the reading. Without `read_textures`, colours are Kd and Ke alone.
+    /// `outside` is the rule for libraries and textures in other folders.
     MaterialTable(const std::string& path, ReadResult& result,
-                  std::function<void(double bytes)> before_library = {}, bool read_textures = true)
+                  std::function<void(double bytes)> before_library = {}, bool read_textures = true,
+                  Outside outside = Outside::reported)
         : path_(path), result_(result), before_library_(std::move(before_library)),
-          texture_files_(before_library_), read_textures_(read_textures) {}
+          outside_(path, outside, result.warnings), texture_files_(before_library_),
+          read_textures_(read_textures) {}
 
     /// Returns the material's index. `line` of the OBJ file is for messages.
     [[nodiscard]] std::uint32_t use(const std::string& name, std::size_t line);
@@ -51,19 +55,20 @@ class MaterialTable {
     [[nodiscard]] std::uint32_t index_of(const std::string& name);
     [[nodiscard]] std::string find_library(std::string_view name) const;
     void read_library(const std::string& file, const std::string& where);
-    void warn_of_outside(const std::string& file, const std::string& where);
     void define(const std::string& file, const MtlMaterial& material);
     void warn_of_undefined();
     void add_texture(std::size_t material, const std::optional<MtlTexture>& texture,
                      Vec3 Material::*colour, TextureMap MaterialTextures::*map,
                      const std::optional<Vec3>& factor);
+    [[nodiscard]] std::shared_ptr<const Texture> texture_of(std::size_t material,
+                                                            const std::string& name);
     void warn_of_textures();
 
     std::string path_;
     ReadResult& result_;
     std::function<void(double bytes)> before_library_;
     std::set<FileIdentity> libraries_read_;
-    bool outside_ = false;                   ///< a library outside the scene's folder was reported
+    OutsideFiles outside_;
     std::set<std::string> libraries_missed_; ///< missing libraries that were reported
     std::unordered_map<std::string, std::uint32_t> index_;
     std::vector<Entry> entries_;

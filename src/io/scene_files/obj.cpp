@@ -20,14 +20,14 @@ namespace {
 /// Makes a scene of what the file says.
 class ObjReader {
   public:
-    ObjReader(const std::string& path, const ReadGuard& guard, bool textures)
+    ObjReader(const std::string& path, const ReadGuard& guard, bool textures, Outside outside)
         : path_(path), guard_(guard), textures_(textures), materials_(
                                                                path, result_,
                                                                [this](double bytes) {
                                                                    libraries_ += bytes;
                                                                    check_memory();
                                                                },
-                                                               textures) {}
+                                                               textures, outside) {}
     ReadResult read();
 
   private:
@@ -232,8 +232,9 @@ void ObjReader::collect_warnings() {
 
 } // namespace
 
-ReadResult read_obj(const std::string& path, const ReadGuard& guard, bool textures) {
-    return ObjReader(path, guard, textures).read();
+ReadResult read_obj(const std::string& path, const ReadGuard& guard, bool textures,
+                    Outside outside) {
+    return ObjReader(path, guard, textures, outside).read();
 }
 
 } // namespace hemilux

@@ -17,7 +17,8 @@ namespace hemilux {
 /// and groups are in the order in which they are defined or first used by a face. Throws InputError
 /// for a file that cannot be read, with file and line for what is wrong in it, and where no face
 /// has an area. Without `textures`, colours are Kd and Ke alone.
+/// Files outside the scene's folder are read, with a warning, or refused.
 [[nodiscard]] ReadResult read_obj(const std::string& path, const ReadGuard& guard = {},
-                                  bool textures = true);
+                                  bool textures = true, Outside outside = Outside::reported);
 
 } // namespace hemilux

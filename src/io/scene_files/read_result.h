@@ -1,6 +1,7 @@
 #pragma once
 // The result of reading a scene file, whatever its format.
 
+#include "io/files/outside_files.h"
 #include "io/scene_files/camera_of_file.h"
 #include "radiosity/paper/scene/scene.h"
 

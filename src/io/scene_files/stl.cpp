@@ -89,6 +89,12 @@ void StlReader::read_binary(std::string_view content) {
                                  (most == 1 ? " triangle" : " triangles") + ", as the file has " +
                                  std::to_string(content.size()) + " bytes, found " +
                                  std::to_string(count));
+    if (const std::size_t behind = content.size() - header - count_bytes - count * record)
+        result_.warnings.push_back(
+            path_ + ": byte " + std::to_string(header) + ": the file counts " +
+            std::to_string(count) + (count == 1 ? " triangle; " : " triangles; ") +
+            std::to_string(behind) + " bytes behind them, " + std::to_string(behind / record) +
+            " triangles more, are not read");
     result_.scene.groups.emplace_back("default");
     for (std::size_t t = 0; t < count; ++t) {
         constexpr std::size_t normal_bytes = 12;

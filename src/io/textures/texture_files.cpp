@@ -5,7 +5,9 @@
 #include "io/textures/picture_checks.h"
 
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 
 namespace {
 
@@ -35,6 +37,8 @@ namespace {
 
 /// The most texels of a picture: a small file may claim any number.
 constexpr double max_texels = 1 << 26;
+/// The largest file [bytes]: more than the samples of so many texels take.
+constexpr std::uint64_t max_file = std::uint64_t{1} << 30;
 /// The memory per texel while a picture is decoded: the file's samples, and three bytes each.
 constexpr double bytes_per_texel = 12;
 /// The bytes per texel of a buffer, for the largest samples.
@@ -102,7 +106,8 @@ std::shared_ptr<const Texture> TextureFiles::decode(std::string_view bytes,
     if (!is_picture_file(bytes))
         return known_[key] = nullptr;
     if (guard_)
-        guard_(bytes_ + bytes_per_texel * size_of(bytes, key).texels());
+        guard_(bytes_ + static_cast<double>(bytes.size()) +
+               bytes_per_texel * size_of(bytes, key).texels());
     const auto texture = std::make_shared<const Texture>(decode_texture(bytes, key));
     bytes_ += texture->bytes();
     return known_[key] = texture;
@@ -113,7 +118,15 @@ std::shared_ptr<const Texture> TextureFiles::read(const std::string& path) {
         return *texture;
     if (!is_input(path, InputKind::regular))
         return known_[path] = nullptr;
-    return decode(read_input(path, InputKind::regular), path);
+    if (!is_picture_file(read_input(path, InputKind::regular, {}, png_signature.size())))
+        return known_[path] = nullptr;
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (!error && size > max_file)
+        throw InputError(path, "expected a picture in a file of at most 1 GiB");
+    if (guard_)
+        guard_(bytes_ + static_cast<double>(size));
+    return decode(read_input(path, InputKind::regular, {}, max_file), path);
 }
 
 } // namespace hemilux

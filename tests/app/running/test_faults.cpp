@@ -233,7 +233,7 @@ TEST_CASE("a scene too large for --memory stops with what it would need") {
         place.hemilux("solve room.obj --max-edge .001 --memory 500M -o a.csv --steps 1 "
                       "--method hemisphere");
     CHECK(outcome.code == 3);
-    CHECK_THAT(outcome.err, Contains("room.obj: needs about 2.") && Contains("GB (scene") &&
+    CHECK_THAT(outcome.err, Contains("room.obj: needs about 3.") && Contains("GB (scene") &&
                                 Contains("--memory is 524 MB"));
     CHECK(place.hemilux("compare room.obj --max-edge .01 --memory 50M -o a").code == 3);
     CHECK(place.hemilux("solve room.obj --memory 1M -o a.csv").code == 3);

@@ -38,13 +38,19 @@ void split_binary(Container& file, const std::string& path) {
         throw InputError(path, at_byte(8) + "expected a length from 20 to " +
                                    std::to_string(bytes.size()) + ", the size of the file, found " +
                                    std::to_string(length));
+    if (length < bytes.size())
+        file.warning = at_byte(8) + "the file has " + std::to_string(bytes.size() - length) +
+                       " bytes behind the length that it states; they are not read";
     bytes = bytes.substr(0, length);
     if (word_at(bytes, header + 4) != json_chunk)
         throw InputError(path, at_byte(header + 4) + "expected the chunk JSON");
     file.json = chunk_at(bytes, header, path);
     // Chunks begin at multiples of four bytes; those of other kinds are passed over.
     for (std::size_t at = header + chunk_header + (file.json.size() + 3) / 4 * 4;
-         at + chunk_header <= bytes.size();) {
+         at < bytes.size();) {
+        if (bytes.size() - at < chunk_header)
+            throw InputError(path, at_byte(at) + "expected a chunk of at least 8 bytes, found " +
+                                       std::to_string(bytes.size() - at));
         const std::string_view chunk = chunk_at(bytes, at, path);
         if (word_at(bytes, at + 4) == binary_chunk && !file.binary)
             file.binary = chunk;

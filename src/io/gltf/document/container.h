@@ -15,6 +15,7 @@ struct Container {
     std::string content;
     std::string_view json;
     std::optional<std::string_view> binary; ///< the first buffer of a binary file
+    std::string warning = {};               ///< what is not read; empty: nothing
 };
 
 /// Reads a file. Throws InputError for one that cannot be read or whose lengths contradict each

@@ -1,6 +1,7 @@
 #include "io/gltf/document/json_value.h"
 
 #include "io/files/error.h"
+#include "io/files/printable.h"
 #include "io/files/text_words.h"
 
 #include <nlohmann/json.hpp>
@@ -62,7 +63,7 @@ std::vector<JsonValue> JsonValue::elements() const {
 std::string JsonValue::text() const {
     if (!node_->is_string())
         fail_kind("a text");
-    return node_->get<std::string>();
+    return single_line(node_->get_ref<const std::string&>());
 }
 
 bool JsonValue::flag() const {

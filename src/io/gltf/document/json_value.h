@@ -33,6 +33,7 @@ class JsonValue {
     /// Returns the elements of an array.
     [[nodiscard]] std::vector<JsonValue> elements() const;
 
+    /// Returns a text; its control characters are replaced by a mark (single_line, printable.h).
     [[nodiscard]] std::string text() const;
     [[nodiscard]] bool flag() const;
     /// Returns a finite number whose absolute value is at most `largest_number` (text_words.h).

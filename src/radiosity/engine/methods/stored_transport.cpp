@@ -50,6 +50,10 @@ constexpr unsigned batches = StoredRays::batches;
 /// The bytes that are needed to put counts together, for each byte of them.
 constexpr double merging = 3.5;
 
+/// The bytes of a patch besides its rays: the light of each batch, the rows of the system, the
+/// errors, the plan of its rays.
+constexpr double bytes_per_patch = 1300;
+
 class StoredTransportSolver final : public Solver {
   public:
     explicit StoredTransportSolver(const SolverInput& input)
@@ -274,7 +278,8 @@ extern const Method stored_transport_method{
     .aims = [] { return true; },
     .bytes =
         [](const SolveOptions& options, double patches) {
-            return bytes_per_factor * patches * std::min(patches, options.rays);
+            return bytes_per_patch * patches +
+                   bytes_per_factor * patches * std::min(patches, options.rays);
         },
     .former_name = "gathering",
 };

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 
 namespace hemilux {
 namespace {
@@ -46,12 +48,20 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
         time_left = std::max(*stop.seconds - last, min_seconds);
     StopFlag& interrupted = input.monitor.interrupted;
     const TimeLimit limit(interrupted, time_left);
+    double error = std::numeric_limits<double>::quiet_NaN();
     for (std::uint32_t step = before.steps + 1;; ++step) {
+        // Steps grow: the next one alone may last far longer than patience does.
+        std::optional<double> patience;
+        if (stop.patience && !std::isfinite(error) && step > StopRule::steps_of_patience &&
+            !stop.seconds)
+            patience = std::max(*stop.patience - last, min_seconds);
+        const TimeLimit limit_of_patience(interrupted, patience);
         if ((agree(interrupted) && solver.steps_ready() == 0) || !solver.step())
             return !interrupted.is_wished(); // but for the caller's wish the run ends by its rule
         const Solution& solution = solver.solution();
+        error = estimated_error(input.mesh, solution);
         const StepRecord record{step, solution.rays_energy + solution.rays_density, elapsed(),
-                                estimated_error(input.mesh, solution)};
+                                error};
         if (after_step)
             after_step(record, solution);
         const double took = record.seconds - last;
@@ -59,6 +69,8 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
         longest = std::max(longest, took);
         last = record.seconds;
         if (done(step, record.seconds, record.estimated_error))
+            return true;
+        if (patience && !std::isfinite(error) && record.seconds > *stop.patience)
             return true;
     }
 }

@@ -26,7 +26,7 @@ struct Before {
 /// Takes steps until the rule or the monitor ends the run; then still those that are ready.
 /// `after_step` sees each new solution. Returns false when interrupted. At the end of
 /// `stop.seconds`, or of one second where that is later, a step is cut short. If it is the first
-/// there may be no step at all.
+/// there may be no step at all. At the end of `stop.patience` a step is cut short too.
 bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
          const std::function<void(const StepRecord&, const Solution&)>& after_step = {},
          const Before& before = {});

@@ -15,6 +15,10 @@ struct StopRule {
     /// The number of rays in all after which no further step is begun: where light is rare an error
     /// may be out of reach.
     std::optional<std::uint64_t> rays = {};
+    /// The time [s] after which a run ends that has taken `steps_of_patience` and has learned
+    /// nothing: its error is still unknown.
+    std::optional<double> patience = {};
+    static constexpr std::uint32_t steps_of_patience = 3;
     static constexpr std::uint32_t default_steps = 16;
 
     /// Returns the number of steps that will be taken, as far as that is known: more where the time
