@@ -17,7 +17,7 @@ glm=$(find /usr/lib /usr/share -name glmConfig.cmake 2>/dev/null | head -1)
 [ -n "$glm" ] || { echo "the lesson needs GLM: apt install libglm-dev" >&2; exit 77; }
 # GLM in a folder of its own: beside it in /usr/include lie headers of this system.
 glm=$(dirname "$glm")
-mkdir -p "$build/glm$glm" "$build/glm/usr/include" "$build/site"
+mkdir -p "$build/glm$glm" "$build/glm/usr/include"
 cp "$glm"/*.cmake "$build/glm$glm"
 cp -r /usr/include/glm "$build/glm/usr/include"
 # em++ minifies with a module of Debian's, which no other node looks for there.
@@ -28,4 +28,10 @@ cmake -S lesson -B "$build" -DCMAKE_BUILD_TYPE=Release -Dglm_DIR="$build/glm$glm
     -DHEMILUX_WARNINGS_AS_ERRORS=ON \
     -DCMAKE_TOOLCHAIN_FILE="$(em-config EMSCRIPTEN_ROOT)/cmake/Modules/Platform/Emscripten.cmake" >/dev/null
 cmake --build "$build" --parallel "$(nproc 2>/dev/null || echo 2)"
-cp "$build/hemilux.js" lesson/site/* "$build/site"
+rm -rf "$build/site"
+cp -r lesson/site "$build/site"
+cp "$build/hemilux.js" "$build/site"
+# The page loads a script for each chapter that there is.
+scripts=$(find lesson/site/chapters -name '*.js' | sed 's,.*/\(.*\)\.js,\1,' | sort -n |
+    sed 's,.*,<script src="chapters/&.js"></script>,')
+awk -v scripts="$scripts" '{ print $0 == "<!-- chapters -->" ? scripts : $0 }' lesson/site/index.html >"$build/site/index.html"

@@ -6,6 +6,8 @@
 #include "radiosity/engine/densities/subdivision_1997.h"
 #include "radiosity/paper/hemisphere/density_direction.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
+#include "radiosity/paper/pages/ray_numbers.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/solving/solver.h"
 
 #include <algorithm>
@@ -32,6 +34,19 @@ LESSON_CALL bool hemisphere_cells(int depth) {
                 put(vertex);
             put(cell.level), put(cell.first_child);
             put(cell.solid_angle), put(cell.projected_solid_angle);
+        }
+    });
+}
+
+/// Puts directions of a triangle, in a patch's own frame, as rays of the page of section 5 have them:
+/// by the cosine law.
+LESSON_CALL bool hemisphere_rays(int depth, std::uint32_t cell, std::uint32_t rays, double seed) {
+    return answered([&] {
+        const Hemisphere hemisphere(depth);
+        const std::uint64_t key = hash_words({static_cast<std::uint64_t>(seed), cell});
+        for (std::uint32_t ray = 0; ray < rays; ++ray) {
+            plain::RayNumbers random(key, ray);
+            put(hemisphere.cells().at(cell).shape.sample_rejection(random));
         }
     });
 }

@@ -127,7 +127,13 @@ const hemilux = (() => {
     for (let at = 0; at < numbers.length; at += 7)
       cells.push({ index: cells.length, vertex: vector(numbers, at), level: numbers[at + 3], child: numbers[at + 4],
         solidAngle: numbers[at + 5], projected: numbers[at + 6] });
-    return { depth, vertices, cells };
+    // Directions of rays in a triangle.
+    const raysIn = (cell, count, seed = 1) => {
+      const values = call("hemisphere_rays", depth, cell, count, seed), list = [];
+      for (let at = 0; at < values.length; at += 3) list.push(vector(values, at));
+      return list;
+    };
+    return { depth, vertices, cells, raysIn };
   };
 
   // The triangles of a patch that are not divided, with their mean counts: procedure Preprocessing.

@@ -38,10 +38,11 @@ const ofProgram = (scene, { method, page, literal, own }, folder) => {
     { env: { ...process.env, HEMILUX_KERNELS: "baseline" }, stdio: ["ignore", "ignore", "inherit"] });
   const [header, ...lines] = fs.readFileSync(table, "utf8").trim().split("\n").map((line) => line.split(","));
   const columns = (name) => ["r", "g", "b"].map((channel) => header.indexOf(`${name}_${channel}`));
-  const values = (name) => lines.flatMap((line) => columns(name).map((column) => { inf: Infinity, nan: NaN, "": NaN }[line[column]] ?? Number(line[column])));
+  const values = (name) => lines.flatMap((line) => columns(name).map((column) => readNumber(line[column])));
   return { light: values("radiosity"), errors: values("stderr") };
 };
 
+const readNumber = (word) => ({ inf: Infinity, nan: NaN, "": NaN })[word] ?? Number(word);
 const bitsOf = (values) => new BigUint64Array(Float64Array.from(values).buffer);
 // The share of values with other bits, and the largest difference relative to the largest value.
 const compare = (a, b) => {
