@@ -48,9 +48,6 @@ class OwnStrategy final : public StepSolver {
         if (cell >= hemisphere_.cells().size())
             throw std::invalid_argument("there is no triangle " + std::to_string(cell));
         const double rays = next(numbers), power = next(numbers);
-        if (rays == 0 && power > 0 && !rules_.rounded)
-            throw std::invalid_argument("triangle " + std::to_string(cell) +
-                                        " has power and no rays to carry it");
         return {&hemisphere_.cells()[cell], rays, power};
     }
 

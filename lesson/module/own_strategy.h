@@ -19,8 +19,8 @@ struct OwnRules {
 
 /// Makes the solver. `triangles` has, for each patch, the number of its triangles and then three
 /// numbers for each of these: its index among Hemisphere::cells(), its share of the rays and its
-/// share of the power [-]. Throws std::invalid_argument where they are not that, where a share of
-/// power has no rays, or where shares are negative.
+/// share of the power [-]. Power of a triangle without rays is lost, which the balance of energy
+/// shows. Throws std::invalid_argument where the numbers are not that, or shares are negative.
 [[nodiscard]] std::unique_ptr<Solver>
 own_strategy(const SolverInput& input, std::span<const double> triangles, const OwnRules& rules);
 

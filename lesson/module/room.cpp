@@ -12,13 +12,25 @@ void NotingTracer::note(std::size_t rays) {
 
 std::optional<Hit> NotingTracer::closest(const Ray& ray) const {
     const std::optional<Hit> hit = tracer_->closest(ray);
-    if (noted_.size() < room_for_) {
-        constexpr double far = 4; // scenes lie in [-1,1]^3
-        const Vec3 to =
-            ray.origin + ray.direction * (hit ? hit->t : far / glm::length(ray.direction));
-        noted_.push_back({ray.origin, to, hit ? mesh_.patch_at(*hit) : none, !hit});
-    }
+    note(ray, hit);
     return hit;
+}
+
+void NotingTracer::closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const {
+    tracer_->closest_stream(rays, out);
+    for (std::size_t k = 0; k < rays.size() && noted_.size() < room_for_; ++k)
+        note(rays[k], out[k].facet == none
+                          ? std::nullopt
+                          : std::optional(tracer_->locate(rays[k], out[k].facet)));
+}
+
+void NotingTracer::note(const Ray& ray, const std::optional<Hit>& hit) const {
+    if (noted_.size() >= room_for_)
+        return;
+    constexpr double far = 4; // scenes lie in [-1,1]^3
+    const double t = hit ? hit->t : far / glm::length(ray.direction);
+    noted_.push_back(
+        {ray.origin, ray.origin + t * ray.direction, hit ? mesh_.patch_at(*hit) : none, !hit});
 }
 
 Room::Room(Scene scene, double max_edge)

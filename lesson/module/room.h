@@ -18,8 +18,7 @@ struct NotedRay {
     bool escaped; ///< else, without a patch, it met the back of a face
 };
 
-/// Asks another tracer, and notes the first rays whose nearest hit is asked for one by one, as the
-/// pages do.
+/// Asks another tracer, and notes the first rays whose nearest hit is asked for.
 class NotingTracer final : public Tracer {
   public:
     NotingTracer(const Mesh& mesh, std::unique_ptr<Tracer> tracer)
@@ -34,9 +33,7 @@ class NotingTracer final : public Tracer {
         return tracer_->occluded(ray, target);
     }
     [[nodiscard]] std::uint32_t count(const Ray& ray) const override { return tracer_->count(ray); }
-    void closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const override {
-        tracer_->closest_stream(rays, out);
-    }
+    void closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const override;
     void occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
                          std::span<std::uint8_t> out) const override {
         tracer_->occluded_stream(rays, targets, out);
@@ -46,6 +43,8 @@ class NotingTracer final : public Tracer {
     }
 
   private:
+    void note(const Ray& ray, const std::optional<Hit>& hit) const;
+
     const Mesh& mesh_;
     std::unique_ptr<Tracer> tracer_;
     std::size_t room_for_ = 0;

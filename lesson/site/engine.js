@@ -143,10 +143,24 @@ const hemilux = (() => {
       const density = (counts[cell.vertex[0]] + counts[cell.vertex[1]] + counts[cell.vertex[2]]) / 3;
       if (density > threshold && cell.level < depth)
         for (let child = 0; child < 4; ++child) divide(cells[cell.child + child]);
-      else list.push({ cell, density });
+      else list.push({ cell, density: Math.fround(density) }); // a float, as on the page
     };
     for (let root = 0; root < 4; ++root) divide(cells[root]);
     return list;
+  };
+
+  // The shares of the triangles of a patch: of its rays, A_tr / A_hemi D_tr / D_average, and of its power,
+  // A_tr / A_hemi. Rules: `sphere`, areas on the sphere in place of their projections (D1); `zero`, a density of 0
+  // gets no rays (D5). Without it a density is one surface at least, and a quarter of the average.
+  const shares = (leaves, { sphere = false, zero = false } = {}) => {
+    const area = (cell) => sphere ? cell.solidAngle / (2 * Math.PI) : cell.projected / Math.PI;
+    const averageOf = (densities) => leaves.reduce((sum, { cell }, k) => sum + area(cell) * densities[k], 0);
+    const counted = leaves.map(({ density }) => density), mean = averageOf(counted);
+    const densities = zero ? counted : counted.map((density) => Math.fround(Math.max(density, 1, mean / 4)));
+    const average = averageOf(densities);
+    const list = leaves.map(({ cell }, k) => ({ cell: cell.index, area: area(cell), density: densities[k],
+      rays: average > 0 ? area(cell) * densities[k] / average : 0, power: area(cell) }));
+    return Object.assign(list, { average });
   };
 
   // Reads a Wavefront OBJ with its MTL: v, f (any convex polygon), usemtl; Kd, Ke.
@@ -191,7 +205,7 @@ const hemilux = (() => {
   };
 
   const ready = (load) => load().then((loaded) => { module = loaded; });
-  return { ready, Room, hemisphere, leaves, readObj };
+  return { ready, Room, hemisphere, leaves, shares, readObj };
 })();
 
 if (typeof exports === "object") exports.hemilux = hemilux;

@@ -101,7 +101,7 @@ const figures = (() => {
   // closed room through the backs of its walls.
   class RoomView extends View {
     constructor(parent, options) {
-      super(parent, { ratio: 1.25, kind: "room", ...options });
+      super(parent, { ratio: 1.25, kind: options.bright ? "room" : "room lit", ...options });
       this.eye = { yaw: 0.5, pitch: 0.32, zoom: 1, ...options.eye };
       this.colour = (patch) => patch.reflectance;
       this.grid = false;
@@ -169,7 +169,7 @@ const figures = (() => {
     // A place of the world on the canvas, and its distance.
     project(point) {
       const to = sub(point, this.place), depth = -dot(to, this.back);
-      const factor = 1.48 * Math.min(this.height, this.width) / Math.max(depth, 1e-3 * this.radius);
+      const factor = 1.95 * Math.min(this.height, this.width) / Math.max(depth, 1e-3 * this.radius);
       return [this.width / 2 + factor * dot(to, this.right), this.height / 2 - factor * dot(to, this.up), depth];
     }
     order() {
@@ -191,7 +191,7 @@ const figures = (() => {
       this.aim();
       for (const patch of this.order()) {
         const colour = this.colour(patch), fill = typeof colour === "string" ? colour : rgb(colour);
-        const edge = this.grid ? ink("grid") : fill;
+        const edge = this.grid ? "rgba(0,0,0,.45)" : fill;
         this.line(patch.corners.map((c) => this.project(c)), { closed: true, fill, colour: edge, width: this.grid ? 0.6 : 0.8 });
       }
       for (const { patch, colour = ink("mark") } of this.chosen.map((mark) => typeof mark === "number" ? { patch: mark } : mark))
@@ -251,11 +251,11 @@ const figures = (() => {
   class ChartView extends View {
     constructor(parent, options) {
       super(parent, { ratio: 1.5, kind: "chart", ...options });
-      Object.assign(this, { x: "", y: "", log: true, series: [], lines: [], range: null, form: format, ...options });
+      Object.assign(this, { x: "", log: true, series: [], lines: [], range: null, form: format, ...options });
     }
     draw() {
       this.begin();
-      const [left, right, top, bottom] = [58, 14, 18, 42];
+      const [left, right, top, bottom] = [58, 30, 18, 42];
       const all = this.series.flatMap(({ points }) => points).filter(([x, y]) => !this.log || (x > 0 && y > 0));
       const span = (k) => {
         const values = all.map((point) => point[k]);
@@ -280,7 +280,6 @@ const figures = (() => {
         this.text((this.formY ?? this.form)(tick), left - 8, place([xs[0], tick])[1], { align: "right", base: "middle", colour: ink("soft") });
       }
       this.text(this.x, this.width - right, this.height - 6, { align: "right", colour: ink("soft") });
-      this.text(this.y, 8, 12, { colour: ink("soft") });
       this.pen.save();
       this.pen.beginPath();
       this.pen.rect(left, top, this.width - left - right, this.height - top - bottom);
@@ -345,5 +344,12 @@ const figures = (() => {
   };
   const lit = (light, factor) => (patch) => [0, 1, 2].map((k) => light[3 * patch.index + k] * factor);
 
-  return { ...vectors, vectors, View, RoomView, DiscView, ChartView, MatrixView, format, percent, rgb, heat, ink, exposure, lit };
+  // A relative difference as a colour: blue where light is missing, red where there is too much.
+  const difference = (share) => {
+    const t = Math.min(1, Math.abs(share)), full = share < 0 ? [0.13, 0.4, 0.78] : [0.82, 0.2, 0.12];
+    const [r, g, b] = lerp([0.95, 0.94, 0.92], full, t).map((x) => Math.round(255 * x));
+    return `rgb(${r},${g},${b})`;
+  };
+
+  return { ...vectors, vectors, difference, View, RoomView, DiscView, ChartView, MatrixView, format, percent, rgb, heat, ink, exposure, lit };
 })();

@@ -40,6 +40,7 @@ const lesson = (() => {
     }
     close() {
       this.isOpen = false;
+      clearTimeout(this.addressing);
       this.views.forEach((view) => view.close());
       this.rooms?.forEach((room) => room.delete());
     }
@@ -53,6 +54,7 @@ const lesson = (() => {
       const box = element("div", { className: "view" });
       this.views_.append(box);
       const made = new Kind(box, options);
+      box.classList.toggle("wide", Boolean(options.wide));
       if (options.title) box.prepend(element("div", { className: "title" }, options.title));
       this.views.push(made);
       if (made.eye && this.state.eye !== undefined) {
@@ -69,7 +71,9 @@ const lesson = (() => {
     set(values, show = true) {
       Object.assign(this.state, values);
       const search = new URLSearchParams(Object.entries(this.state).filter(([key, value]) => value !== this.chapter.state[key]));
-      history.replaceState(null, "", `#${this.chapter.number}${String(search) ? "?" + search : ""}`);
+      // Browsers refuse many changes of the address in a short time.
+      clearTimeout(this.addressing);
+      this.addressing = setTimeout(() => history.replaceState(null, "", `#${this.chapter.number}${String(search) ? "?" + search : ""}`), 150);
       this.controls.querySelectorAll("[data-key]").forEach((input) => input.show());
       if (show) this.update();
     }
@@ -161,7 +165,7 @@ const lesson = (() => {
     return form;
   };
 
-  let figure = null;
+  let figure = null, cover = null;
   const main = () => query("main");
   const names = ["The lesson", "worksheet", "plan"];
   const go = (name) => { location.hash = `#${name}`; };
@@ -189,9 +193,26 @@ const lesson = (() => {
     }
   };
 
+  // The room on the cover, solved while one looks.
+  const showCover = (box) => {
+    const room = new hemilux.Room(rooms.boxes({ n: 12, reflectance: 0.7 })), view = new figures.RoomView(box, {
+      label: "A room with two boxes and a lamp, lit by all bounces of the light", ratio: 1.3, eye: { yaw: 0.1, pitch: 0.08, zoom: 1.06 } });
+    const begin = performance.now(), run = room.run("stored-transport", { rays: 64, steps: 1 }).step(), light = run.light;
+    view.room = room;
+    view.colour = figures.lit(light, figures.exposure(room, light, 0.96));
+    view.draw();
+    const { rays, error } = run.figures;
+    box.parentNode.lastChild.textContent = `${room.patches.length} patches, ${figures.format(rays)} rays, solved in ` +
+      `${((performance.now() - begin) / 1000).toFixed(2)} s by stored transport. Its own estimate of the error: ${figures.percent(error)}. Drag to turn.`;
+    run.delete();
+    cover = { values: { light: [...light], error, rays }, close: () => { view.close(); room.delete(); } };
+  };
+
   const showPage = (name) => {
     const template = query(`template#${name}`);
     main().replaceChildren(template.content.cloneNode(true));
+    const live = query(".live", main());
+    if (live) showCover(live);
     const list = query(".contents", main());
     if (list) list.append(...chapters.filter(Boolean).map(({ number, title, summary }) =>
       element("li", {}, element("a", { href: `#${number}` }, element("b", {}, title), element("span", {}, summary)))));
@@ -204,8 +225,9 @@ const lesson = (() => {
   let shown = "";
   const show = () => {
     const { name, values } = place();
-    if (figure) figure.close();
-    figure = null;
+    figure?.close();
+    cover?.close();
+    figure = cover = null;
     const chosen = chapters[Number(name)];
     const title = chosen ? chosen.title : { worksheet: "Worksheet", plan: "Plan" }[name] ?? "The paper alive";
     document.title = `${title} · hemilux`;
@@ -252,5 +274,5 @@ const lesson = (() => {
     await hemilux.ready(loadHemilux);
     show();
   };
-  return { chapter, start, chapters, isRight, element, get figure() { return figure; } };
+  return { chapter, start, chapters, isRight, element, get figure() { return figure; }, get cover() { return cover; } };
 })();

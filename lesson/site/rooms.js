@@ -30,15 +30,17 @@ const rooms = (() => {
     const top = place(-w, height, d);
     sheet(scene, top, sub(place(w, height, d), top), sub(place(-w, height, -d), top), material, cells, cells);
   };
-  const shell = (scene, [w, h, d], n, { left = "wall", right = "wall", back = "wall", front = "wall", floor = "floor", ceiling = "wall" } = {}, lamp = null) => {
+  // Six walls inwards, each n x n, with a ceiling of cells x cells whose middle lamp x lamp shine.
+  const shell = (scene, [w, h, d], n, { left = "wall", right = "wall", back = "wall", front = "wall", floor = "floor", ceiling = "wall" } = {}, lamp = 0, cells = n) => {
     sheet(scene, [0, 0, d], [w, 0, 0], [0, 0, -d], floor, n, n);
     sheet(scene, [0, 0, d], [0, 0, -d], [0, h, 0], left, n, n);
     sheet(scene, [w, 0, 0], [0, 0, d], [0, h, 0], right, n, n);
     sheet(scene, [0, 0, 0], [w, 0, 0], [0, h, 0], back, n, n);
     sheet(scene, [w, 0, d], [-w, 0, 0], [0, h, 0], front, n, n);
-    const cells = lamp ? 3 : n;
     const first = sheet(scene, [0, h, 0], [w, 0, 0], [0, 0, d], ceiling, cells, cells);
-    if (lamp) scene.facets[first + 4].material = scene.materials.findIndex(({ name }) => name === lamp);
+    const light = scene.materials.findIndex(({ name }) => name === "lamp");
+    for (let i = 0; i < lamp; ++i)
+      for (let j = 0; j < lamp; ++j) scene.facets[first + ((cells - lamp) / 2 + j) * cells + (cells - lamp) / 2 + i].material = light;
   };
   const grey = (x) => [x, x, x];
 
@@ -55,16 +57,15 @@ const rooms = (() => {
     const r = reflectance, scene = begin([["floor", grey(r)], ["wall", grey(r)],
       ["red", colours ? [r, 0.3 * r, 0.25 * r] : grey(r)], ["blue", colours ? [0.3 * r, 0.45 * r, r] : grey(r)],
       ["lamp", grey(r), [10 * lamp, 9 * lamp, 7.5 * lamp]]]);
-    shell(scene, [3, 2.4, 3], n, { left: "red", right: "blue" }, "lamp");
+    shell(scene, [3, 2.4, 3], n, { left: "red", right: "blue" }, 1, 3);
     if (block) box(scene, [1.8, 1.2], [0.8, 0.9, 0.8], 0.3, "wall");
     return scene;
   };
-  // A room with two boxes, after that of Goral et al. at Cornell University; about `n` cells a wall.
+  // A room with two boxes, after that of Goral et al. at Cornell University; n x n cells a wall, n = 3, 6, 9, ...
   const boxes = ({ n = 6, reflectance = 0.6, lamp = 1 } = {}) => {
     const r = reflectance, scene = begin([["floor", grey(r)], ["wall", grey(r)], ["red", [r, 0.12 * r, 0.1 * r]], ["green", [0.2 * r, 0.75 * r, 0.2 * r]],
       ["box", grey(1.1 * r)], ["lamp", grey(0.4), [22 * lamp, 19 * lamp, 14 * lamp]]]);
-    shell(scene, [3, 2.6, 3], n, { left: "red", right: "green" }, n === 3 ? "lamp" : null);
-    if (n !== 3) sheet(scene, [1.1, 2.59, 1.1], [0.8, 0, 0], [0, 0, 0.8], "lamp", 2, 2);
+    shell(scene, [3, 2.6, 3], n, { left: "red", right: "green" }, n / 3);
     box(scene, [0.95, 0.95], [0.8, 1.5, 0.8], 0.35, "box", Math.max(1, Math.round(n / 3)));
     box(scene, [2.05, 1.9], [0.8, 0.75, 0.8], -0.3, "box", Math.max(1, Math.round(n / 3)));
     return scene;
@@ -72,17 +73,16 @@ const rooms = (() => {
   // The same walls with a table of many small things in one corner: what the paper calls complex.
   const crowd = ({ n = 4, wall = 0, things = 4, lamp = 1 } = {}) => {
     const scene = begin([["floor", grey(0.6)], ["wall", grey(0.6)], ["thing", [0.7, 0.5, 0.3]], ["screen", [0.35, 0.5, 0.6]],
-      ["lamp", grey(0.4), [22 * lamp, 20 * lamp, 17 * lamp]]]);
-    shell(scene, [4, 2.6, 3], n, {});
-    sheet(scene, [1.6, 2.59, 1.1], [0.8, 0, 0], [0, 0, 0.8], "lamp", 2, 2);
+      ["lamp", grey(0.4), [30 * lamp, 27 * lamp, 23 * lamp]]]);
+    shell(scene, [4, 2.6, 3], n, {}, 1, 5);
     for (let i = 0; i < things; ++i)
       for (let j = 0; j < things; ++j)
-        box(scene, [0.35 + 1.1 * i / Math.max(things, 1), 0.9 + 1.2 * j / Math.max(things, 1)], [0.13, 0.18 + 0.07 * ((i * 7 + j * 3) % 4), 0.13], 0.4 * (i + 2 * j), "thing");
+        box(scene, [0.45 + 1.4 * i / Math.max(things, 1), 0.7 + 1.8 * j / Math.max(things, 1)], [0.2, 0.3 + 0.16 * ((i * 7 + j * 3) % 4), 0.2], 0.4 * (i + 2 * j), "thing");
     if (wall) box(scene, [1.75, 1.5], [0.06, 2.1, 2.6], 0, "screen", 3);
     return scene;
   };
-  // The closed L of examples/scenes/furnace_lshape: everything emits 1 and reflects one half.
-  const furnace = () => {
+  // A closed L in which everything emits 1 and reflects one half, or the same without its ceiling.
+  const furnace = (isOpen = false) => {
     const scene = begin([["wall", grey(0.5), grey(1)]]);
     const outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]];
     outline.forEach(([x, z], k) => {
@@ -91,7 +91,7 @@ const rooms = (() => {
     });
     for (const [x, z] of [[0, 0], [1, 0], [0, 1]]) {
       sheet(scene, [x, 0, z + 1], [1, 0, 0], [0, 0, -1], "wall", 2, 2);
-      sheet(scene, [x, 1, z], [1, 0, 0], [0, 0, 1], "wall", 2, 2);
+      if (!isOpen) sheet(scene, [x, 1, z], [1, 0, 0], [0, 0, 1], "wall", 2, 2);
     }
     return scene;
   };

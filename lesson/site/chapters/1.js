@@ -23,11 +23,11 @@ its light to a small one.</p>`,
   },
   state: { distance: 1, tilt: 0, aside: 0, size: 1, rays: 200, eye: "0.55,0.12" },
   figure(f) {
-    const view = f.view(figures.RoomView, { label: "Two squares, one above the other, and rays between them", ratio: 1.15, title: "Drag to turn" });
+    const view = f.view(figures.RoomView, { label: "Two squares, one above the other, and rays between them", ratio: 1.15, bright: true, title: "Drag to turn" });
     const chart = f.view(figures.ChartView, { label: "The estimate of F as rays arrive", log: false, ratio: 1.15, title: "F by rays, against the closed form", x: "rays" });
     view.backs = true;
     view.middle = [0, 0.6, 0];
-    view.radius = 1.15;
+    view.radius = 1.35;
     f.button("One ray", () => f.set({ rays: f.state.rays + 1 }), "r");
     f.button("A hundred", () => f.set({ rays: f.state.rays + 100 }), "h");
     f.button("None", () => f.set({ rays: 0 }));

@@ -18,12 +18,12 @@ before.</p>
 <p>The lamp only scales: twice the lamp, twice the light everywhere. The reflectance does more. At 0.5 some seven bounces
 are enough for one per cent; at 0.9 you need many more.</p>`,
   source: {
-    section: "2", sentence: "F_ij = form factor between surface i and j; n = number of surfaces in the environment.",
+    section: "2", sentence: "The relationship between the radiosity of a given patch and the remainder is given by the following formula.",
     pages: ["src/radiosity/paper/pages/section_2_matrix.cpp"],
   },
-  state: { bounces: 1, reflectance: 0.5, lamp: 1, room: "29", show: "light", patch: 20, eye: "0.45,0.28" },
+  state: { bounces: 1, reflectance: 0.5, lamp: 1, room: "29", show: "light", patch: 12, eye: "0.22,0.12" },
   figure(f) {
-    const view = f.view(figures.RoomView, { label: "A room of patches", title: "The room: click a patch" });
+    const view = f.view(figures.RoomView, { label: "A room of patches", title: "The room: click a patch", ratio: 1 });
     const matrix = f.view(figures.MatrixView, { label: "The matrix of form factors", title: "F: row i, what patch i sees" });
     view.grid = true;
     view.onPick = matrix.onPick = (patch) => { if (patch >= 0) f.set({ patch }); };

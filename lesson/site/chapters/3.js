@@ -20,10 +20,10 @@ methods it falls as light is shot. For the third it starts low: each step has al
     section: "3.1 to 3.3", sentence: "At each step, the energy of a reduced number of additional rays is shot from each patch of the scene.",
     pages: ["src/radiosity/paper/pages/section_3_1_progressive.cpp", "src/radiosity/paper/pages/section_3_2_monte_carlo.cpp", "src/radiosity/paper/pages/section_3_3_progressive_monte_carlo.cpp"],
   },
-  state: { method: "progressive-monte-carlo", steps: 1, reflectance: 0.6, rays: 64, eye: "0.12,0.1" },
+  state: { method: "progressive-monte-carlo", steps: 4, reflectance: 0.6, rays: 64, eye: "0.12,0.1" },
   figure(f) {
     const view = f.view(figures.RoomView, { label: "A room with two boxes, lit by shooting", title: "The picture after the last shot" });
-    const chart = f.view(figures.ChartView, { label: "Error of each picture", title: "Error against rays", x: "rays", y: "error", ratio: 1.25, formY: (y) => figures.percent(y) });
+    const chart = f.view(figures.ChartView, { label: "Error of each picture", title: "Error against rays", x: "rays", ratio: 1.25, formY: (y) => figures.percent(y) });
     f.choice("method", "Method", { progressive: "3.1 progressive", "monte-carlo": "3.2 Monte Carlo", "progressive-monte-carlo": "3.3 Monte Carlo progressive" });
     f.button("Shoot", () => f.set({ steps: f.state.steps + 1 }), "s");
     f.button("Again from 0", () => f.set({ steps: 0 }), "0");
@@ -31,7 +31,7 @@ methods it falls as light is shot. For the third it starts low: each step has al
     f.slider("reflectance", "Reflectance", 0.1, 0.85, 0.05);
     f.slider("rays", "Rays a patch", 4, 128, 4);
     const motions = { progressive: 0.5, "monte-carlo": 0.5, "progressive-monte-carlo": 0.9 };
-    let room, run, reference, built = "", series = [], trail = {};
+    let room, run, reference, built = "", series = [];
     f.change = () => {
       const { method, steps, reflectance, rays } = f.state, key = [reflectance].join();
       if (key !== built) {
@@ -48,10 +48,9 @@ methods it falls as light is shot. For the third it starts low: each step has al
       const kind = [method, rays, reflectance].join();
       if (!run || run.kind !== kind || run.done > steps) {
         run?.delete();
-        run = room.run(method, { page: true, rays, own: method === "monte-carlo" ? "--one-shot" : "", seed: 1 });
+        run = room.run(method, method === "monte-carlo" ? { rays, own: "--one-shot" } : { page: true, rays });
         Object.assign(run, { kind, done: 0 });
-        series = trail.kind === kind ? trail.points.slice(0, 0) : [];
-        trail = { kind, points: series };
+        series = [];
       }
       const emission = Float64Array.from(room.patches.flatMap((patch) => patch.emission));
       let rest = [];

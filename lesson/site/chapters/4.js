@@ -20,9 +20,9 @@ bytes. This is why the paper of 1998 asks for something smaller.</p>
     section: "4 and 5a", sentence: "If the average value of densities for a spherical triangle is higher than a threshold value, the spherical triangle is divided into four new equal spherical triangles.",
     pages: ["src/radiosity/paper/pages/section_5_hemisphere.cpp", "src/radiosity/paper/hemisphere/hemisphere.h", "src/radiosity/paper/pages/stored_subdivision.h"],
   },
-  state: { patch: 25, depth: 2, threshold: 0, show: "counts", eye: "-0.35,0.3" },
+  state: { patch: 18, depth: 2, threshold: 0, show: "counts", eye: "-0.35,0.3" },
   figure(f) {
-    const view = f.view(figures.RoomView, { label: "A room with many small things", title: "The room: click a patch", eye: { yaw: -0.3, pitch: 0.3 } });
+    const view = f.view(figures.RoomView, { label: "A room with many small things", title: "The room: click a patch", wide: true, ratio: 2.6, eye: { zoom: 1.25 } });
     const disc = f.view(figures.DiscView, { label: "The divided hemisphere of 1998", title: "1998: midpoints" });
     const old = f.view(figures.DiscView, { label: "The divided hemisphere of 1997", title: "1997: nearer to what is there" });
     f.slider("depth", "Depth", 0, 3, 1);

@@ -22,9 +22,9 @@ the sphere in place of their projection. Watch the power at the rim, and go on t
     section: "5b", sentence: "A number of rays proportional to the average value of its density are shot in each spherical triangle of the hemisphere.",
     pages: ["src/radiosity/paper/pages/section_5_hemisphere.cpp", "src/radiosity/paper/pages/share_line.h"],
   },
-  state: { patch: 25, triangle: 0, rays: 64, rules: "corrected", threshold: 0, eye: "-0.35,0.3" },
+  state: { patch: 18, triangle: 0, rays: 64, rules: "corrected", threshold: 0, eye: "-0.35,0.3" },
   figure(f) {
-    const view = f.view(figures.RoomView, { label: "The room and rays of a patch", title: "The room: click a patch" });
+    const view = f.view(figures.RoomView, { label: "The room and rays of a patch", title: "The room: click a patch", ratio: 1 });
     const disc = f.view(figures.DiscView, { label: "Rays in the triangles of the patch", title: "Rays in each triangle: click one" });
     f.slider("rays", "N_hemi", 16, 512, 16);
     f.slider("threshold", "Threshold", 0, 8, 0.5);
@@ -37,14 +37,9 @@ the sphere in place of their projection. Watch the power at the rim, and go on t
     f.change = () => {
       const { rays, rules, threshold } = f.state, patch = Math.min(f.state.patch, n - 1), printed = rules === "printed";
       const leaves = hemilux.leaves(table, room.counts(patch, depth), threshold);
-      const area = (cell) => printed ? cell.solidAngle / (2 * Math.PI) : cell.projected / Math.PI;
-      const mean = leaves.reduce((sum, { cell, density }) => sum + area(cell) * density, 0);
-      const used = leaves.map(({ density }) => printed ? density : Math.max(density, 1, mean / 4));
-      const average = leaves.reduce((sum, { cell }, k) => sum + area(cell) * used[k], 0);
-      const rows = leaves.map(({ cell }, k) => {
-        const exact = average > 0 ? rays * area(cell) * used[k] / average : 0;
-        return { cell, A: area(cell), D: used[k], exact, N: printed ? Math.round(exact) : exact, power: area(cell) };
-      });
+      const shares = hemilux.shares(leaves, { sphere: printed, zero: printed }), { average } = shares;
+      const rows = shares.map(({ cell, area, density, rays: share, power }) =>
+        ({ cell: table.cells[cell], A: area, D: density, exact: rays * share, N: printed ? Math.round(rays * share) : rays * share, power }));
       // Whole numbers of rays: grid points on the line of all triangles, or rounded.
       let line = 0.5;
       const whole = rows.map(({ exact }) => { const before = Math.floor(line); line += exact; return Math.floor(line) - before; });

@@ -1,0 +1,201 @@
+// Runs in the lesson's page, put there by scripts/check_lesson.sh: walks through all chapters as a reader would,
+// and writes a line for each thing that holds or does not. `expected` has the program's numbers.
+"use strict";
+
+(async () => {
+  const lines = [];
+  const check = (what, holds) => lines.push(`${holds ? "holds: " : "FAILS: "}${what}`);
+  const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+  const all = (selector) => [...document.querySelectorAll(selector)];
+  const near = (a, b, tolerance) => Math.abs(a - b) <= tolerance * Math.abs(b);
+  const same = (a, b) => a.length === b.length && a.every((value, k) => value === b[k]);
+  const close = (a, b, tolerance) => {
+    const scale = b.reduce((most, value) => Math.max(most, Math.abs(value)), 1e-300);
+    return a.length === b.length && a.every((value, k) => Math.abs(value - b[k]) <= tolerance * scale);
+  };
+  const colours = (canvas) => new Set(new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size;
+  const pictures = () => all(".views canvas").map((canvas) => canvas.toDataURL()).join();
+  const key = (name, target = document) => target.dispatchEvent(new KeyboardEvent("keydown", { key: name, bubbles: true, cancelable: true }));
+  const open = async (hash) => {
+    location.hash = "#worksheet";
+    await wait(60);
+    location.hash = hash;
+    await wait(60);
+    return lesson.figure;
+  };
+  const values = () => JSON.stringify(lesson.figure.values);
+  // Waits until the figure has done what takes several pictures.
+  const settled = async () => { while (lesson.figure?.isBusy) await wait(20); await wait(1500); };
+
+  // What is true of each chapter.
+  const asChapter = async (chapter) => {
+    const { number, title, state, exercises } = chapter, say = (what, holds) => check(`${number}. ${what}`, holds);
+    const figure = await open(`#${number}`);
+    await settled();
+    say(`"${title}" is shown`, document.querySelector("h1")?.textContent === title && document.title.startsWith(title));
+    const words = document.querySelector("article").textContent.trim().split(/\s+/).length;
+    say(`its text has ${words} words, at most 250`, words <= 250);
+    say("every canvas is drawn and has a text", all(".views canvas").length > 0 && all(".views canvas").every((canvas) => colours(canvas) > 8 && canvas.getAttribute("aria-label")));
+    say("the figure has a sentence and a table", document.querySelector(".sentence").textContent.length > 20 && all("details.numbers tbody tr").length > 0);
+    say("no text is wider than the window", document.documentElement.scrollWidth <= window.innerWidth);
+    say("all controls have names", all(".controls input, .controls select").every((input) => input.labels[0]?.textContent.length > 1));
+    for (const input of all(".controls [data-key]")) {
+      const before = values() + pictures();
+      if (input.type === "checkbox") input.checked = !input.checked;
+      else if (input.type === "range") input.value = Number(input.value) === Number(input.max) ? input.min : input.max;
+      else input.value = [...input.options].map((option) => option.value).find((value) => value !== input.value);
+      input.dispatchEvent(new Event("input", { bubbles: true }));
+      await settled();
+      say(`${input.dataset.key} changes what is shown`, values() + pictures() !== before);
+      say(`${input.dataset.key} is in the address`, location.hash.includes(`${input.dataset.key}=`));
+      lesson.figure.set({ [input.dataset.key]: state[input.dataset.key] });
+      await settled();
+    }
+    const [range] = all(".controls input[type=range]");
+    if (range) {
+      range.value = String((Number(range.min) + Number(range.max)) / 2);
+      range.dispatchEvent(new Event("input", { bubbles: true }));
+      await settled();
+      const [hash, shown, sentence] = [location.hash, values(), document.querySelector(".sentence").textContent];
+      await open(hash);
+      await settled();
+      say("the address restores it", chapter.timed ? location.hash === hash : values() === shown && document.querySelector(".sentence").textContent === sentence);
+    }
+    const room = document.querySelector("canvas.room");
+    if (room) {
+      const before = room.toDataURL();
+      key("ArrowLeft", room);
+      await wait(300);
+      say("an arrow key turns the room", room.toDataURL() !== before && location.hash.includes("eye="));
+    }
+    all(".exercise").forEach((form, k) => {
+      const exercise = exercises[k], input = form.querySelector("input, select"), answer = () => form.querySelector("output").className;
+      const give = (text) => { input.value = text; form.requestSubmit(); };
+      give(String(exercise.answer));
+      const right = answer();
+      give(typeof exercise.answer === "number" ? String(exercise.answer * 1.5 + 1) : exercise.choices.find((text) => text !== exercise.answer));
+      say(`exercise ${k + 1} takes its answer and refuses another`, right === "right" && answer() === "wrong");
+    });
+    say("the source is named", document.querySelector(".source code") && document.querySelector(".source q").textContent.length > 10);
+  };
+
+  const ofChapters = {
+    1: async () => {
+      await open("#1");
+      const { closed, exchange, rays, hits, share, areas } = lesson.figure.values;
+      check("1. the closed form is that of the program", near(closed, expected.pair[0].F, 1e-12) && near(exchange / areas[1], expected.pair[1].F, 1e-12));
+      check("1. it is that of Howell's catalogue, C-11", near(closed, 0.1998249, 1e-6));
+      check("1. F by rays is hits over rays, within three standard errors of it", share === hits / rays && Math.abs(share - closed) < 3 * lesson.figure.values.error);
+      key("r");
+      check("1. a key shoots one ray", lesson.figure.values.rays === rays + 1);
+      await open("#1?size=2&rays=4000");
+      const { closed: larger, exchange: both, back } = lesson.figure.values;
+      check("1. A F is the same both ways", near(both / 4, back, 0.15) && larger > closed);
+      await open("#1?distance=0.1");
+      check("1. the hemicube is off near by", Math.abs(lesson.figure.values.hemicube - lesson.figure.values.closed) > 0.02);
+      await open("#1?distance=2");
+      check("1. and not far away", Math.abs(lesson.figure.values.hemicube - lesson.figure.values.closed) < 0.01);
+    },
+    2: async () => {
+      await open("#2?bounces=13");
+      check("2. all bounces give the light of the program's matrix", close(lesson.figure.values.light, expected.small.light, 1e-8));
+      const { factors, chosen, patches } = lesson.figure.values;
+      const row = Array.from({ length: patches }, (_, j) => expected.small.factors.find((pair) => pair.i === chosen && pair.j === j)?.F ?? 0);
+      check("2. a row is that of the program", close(factors, row, 1e-9));
+      check("2. it sums to 1, and has 0 for the patch itself", near(factors.reduce((a, b) => a + b), 1, 1e-6) && factors[chosen] === 0);
+      const missing = [];
+      for (const bounces of [5, 6]) { await open(`#2?bounces=${bounces}`); missing.push(lesson.figure.values.missing); }
+      check(`2. six bounces leave less than 1 % (${figures.percent(missing[1])}), five do not`, missing[1] < 0.01 && missing[0] > 0.01);
+      await open("#2?bounces=6&reflectance=0.9");
+      check("2. at 0.9 six bounces are not enough", lesson.figure.values.missing > 0.1);
+      await open("#2");
+      const ceiling = 20 * 3;
+      check("2. after one bounce the ceiling is black", lesson.figure.values.light[ceiling] === 0 && lesson.figure.values.all[ceiling] > 0);
+      await open("#2?bounces=13&lamp=2");
+      const light = lesson.figure.values.light;
+      check("2. twice the lamp is twice the light", close(light.map((value) => value / 2), expected.small.light, 1e-8));
+    },
+    3: async () => {
+      for (const method of ["progressive", "monte-carlo", "progressive-monte-carlo"]) {
+        await open(`#3?method=${method}&steps=${method === "progressive-monte-carlo" ? 4 : 3}`);
+        await settled();
+        const { light, rays } = lesson.figure.values, program = expected[method];
+        check(`3. ${method}: the light is the program's, to the last bit`, same(light, program.light));
+        check(`3. ${method}: so is the number of rays`, rays === program.rays);
+      }
+      const errors = {};
+      for (const steps of [4, 16]) { await open(`#3?steps=${steps}&method=progressive-monte-carlo`); errors[steps] = lesson.figure.values.error; }
+      check("3. four times the steps halve the error", near(errors[16] / errors[4], 0.5, 0.2));
+      await open("#3?steps=0");
+      check("3. before the first shot only the lamp shines", lesson.figure.values.light.filter((value) => value > 0).length === 3 * 4);
+    },
+    4: async () => {
+      let vertices = 0, narrow = 0;
+      for (let patch = 0; patch < expected.crowd.light.length / 3; ++patch) {
+        if (patch === 0) await open("#4");
+        lesson.figure.set({ patch });
+        vertices += lesson.figure.values.vertices;
+      }
+      check("4. the vertices of all patches are the density rays of the program", vertices === expected.crowd.densityRays);
+      lesson.figure.set({ threshold: 2 });
+      for (let patch = 0; patch < expected.crowd.light.length / 3; ++patch) {
+        lesson.figure.set({ patch });
+        narrow += lesson.figure.values.vertices;
+      }
+      check("4. a higher threshold takes fewer bytes, as many as in the program", narrow === expected.threshold.densityRays && narrow < vertices);
+      const table = hemilux.hemisphere(2), leaves = table.cells.filter(({ level }) => level === 2);
+      check("4. a full tree has 84 triangles and 41 vertices", table.cells.length === 84 && table.vertices.length === 41 && leaves.length === 64);
+      await open("#4");
+      check("4. 1997 takes 2132 bytes", document.querySelector(".sentence").textContent.includes("2132 bytes"));
+    },
+    5: async () => {
+      await open("#5");
+      const { rows, total } = lesson.figure.values, sum = (name) => rows.reduce((all_, row) => all_ + row[name], 0);
+      check("5. shares of area and of power sum to 1, N_tr to N_hemi", near(sum("A"), 1, 1e-9) && near(sum("power"), 1, 1e-9) && near(sum("N"), 64, 1e-6) && total === 64);
+      // The shares of the figure, shot for all patches, are the program's method.
+      const room = new hemilux.Room(rooms.crowd({ things: 4 })), table = hemilux.hemisphere(2);
+      const shoot = (rules, options) => {
+        const run = room.runOwn((patch) => hemilux.shares(hemilux.leaves(table, room.counts(patch, 2), 0), rules), options).step().step();
+        const light = run.light;
+        run.delete();
+        return light;
+      };
+      check("5. these shares give the program's light, to the last bit", same(shoot({}, {}), expected.crowd.light));
+      check("5. and as printed, the light of --literal", close(shoot({ sphere: true, zero: true }, { fromCentre: true, rounded: true }), expected.printed.light, 1e-12));
+      room.delete();
+      await open("#5?rules=printed&rays=16");
+      check("5. as printed with few rays power is lost", lesson.figure.values.lost > 0.02);
+      await open("#5?rules=printed");
+      const narrow = lesson.figure.values.rows.find(({ cell }) => cell === rows.at(-1).cell);
+      check("5. the printed areas are others", narrow && !near(narrow.A, rows.at(-1).A, 0.05));
+    },
+  };
+
+  const chapters = lesson.chapters.filter(Boolean);
+  location.hash = "#0";
+  await wait(300);
+  check("the cover shows a solved room", lesson.cover && colours(document.querySelector(".live canvas")) > 50);
+  check("the cover lists all chapters", all(".contents a").length === chapters.length);
+  key("n");
+  await wait(100);
+  check("n turns to chapter 1", location.hash.startsWith("#1"));
+  key("p");
+  check("p is for a projector", document.body.classList.contains("present"));
+  key("Escape");
+  check("Escape ends that", !document.body.classList.contains("present"));
+  for (const chapter of chapters) {
+    try {
+      await asChapter(chapter);
+      if (window.innerWidth > 1000) await ofChapters[chapter.number]?.();
+    } catch (error) {
+      check(`${chapter.number}. ${error.stack}`, false);
+    }
+  }
+  location.hash = "#worksheet";
+  await wait(100);
+  check("the worksheet has all exercises", all(".questions li").length === chapters.reduce((sum, { exercises }) => sum + exercises.length, 0));
+  location.hash = "#plan";
+  await wait(100);
+  check("there is a plan", all("main tr").length > 5);
+  document.body.replaceChildren(lesson.element("pre", { id: "checks" }, [...lines, "all checks ran"].join("\n")));
+})();
