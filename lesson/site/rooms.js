@@ -62,12 +62,12 @@ const rooms = (() => {
     return scene;
   };
   // A room with two boxes, after that of Goral et al. at Cornell University; n x n cells a wall, n = 3, 6, 9, ...
-  const boxes = ({ n = 6, reflectance = 0.6, lamp = 1 } = {}) => {
+  const boxes = ({ n = 6, reflectance = 0.6, lamp = 1, second = [2.05, 1.9, 0.75] } = {}) => {
     const r = reflectance, scene = begin([["floor", grey(r)], ["wall", grey(r)], ["red", [r, 0.12 * r, 0.1 * r]], ["green", [0.2 * r, 0.75 * r, 0.2 * r]],
       ["box", grey(1.1 * r)], ["lamp", grey(0.4), [22 * lamp, 19 * lamp, 14 * lamp]]]);
     shell(scene, [3, 2.6, 3], n, { left: "red", right: "green" }, n / 3);
     box(scene, [0.95, 0.95], [0.8, 1.5, 0.8], 0.35, "box", Math.max(1, Math.round(n / 3)));
-    box(scene, [2.05, 1.9], [0.8, 0.75, 0.8], -0.3, "box", Math.max(1, Math.round(n / 3)));
+    box(scene, second, [0.8, second[2], 0.8], -0.3, "box", Math.max(1, Math.round(n / 3)));
     return scene;
   };
   // The same walls with a table of many small things in one corner: what the paper calls complex.

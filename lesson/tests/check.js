@@ -39,7 +39,8 @@
     say("the figure has a sentence and a table", document.querySelector(".sentence").textContent.length > 20 && all("details.numbers tbody tr").length > 0);
     say("no text is wider than the window", document.documentElement.scrollWidth <= window.innerWidth);
     say("all controls have names", all(".controls input, .controls select").every((input) => input.labels[0]?.textContent.length > 1));
-    for (const input of all(".controls [data-key]")) {
+    const inputs = all(".controls [data-key]");
+    for (const input of chapter.timed && window.innerWidth < 1000 ? inputs.slice(0, 1) : inputs) {
       const before = values() + pictures();
       if (input.type === "checkbox") input.checked = !input.checked;
       else if (input.type === "range") input.value = Number(input.value) === Number(input.max) ? input.min : input.max;
@@ -168,6 +169,62 @@
       await open("#5?rules=printed");
       const narrow = lesson.figure.values.rows.find(({ cell }) => cell === rows.at(-1).cell);
       check("5. the printed areas are others", narrow && !near(narrow.A, rows.at(-1).A, 0.05));
+    },
+    6: async () => {
+      const set = async (rules) => { await open(`#6?sphere=false&${rules}`); return { ...lesson.figure.values }; };
+      const right = await set(""), sphere = await set("sphere=true"), flat = await set("sphere=true&depth=0"), centre = await set("centre=true");
+      check(`6. the corrected rules are right within their error (${figures.percent(right.off)})`, right.off < 1.5 * right.estimated);
+      check(`6. D1: wrong (${figures.percent(sphere.off)}), and neither the balance nor the estimate notices`, sphere.off > 2 * sphere.estimated && Math.abs(sphere.missing) < 0.01);
+      check("6. at depth 0 the fault of D1 is gone", flat.off < 1.5 * flat.estimated);
+      const more = await set("centre=true&rays=128");
+      check(`6. D2: wrong, and more rays do not help (${figures.percent(centre.off)}, ${figures.percent(more.off)})`, more.off > 2 * more.estimated && Math.abs(more.missing) < 0.01);
+      const few = await set("rounded=true&rays=4"), many = await set("rounded=true&rays=128");
+      check(`6. D4: power is lost, more of it by fewer rays (${figures.percent(few.missing)}, ${figures.percent(many.missing)})`, few.missing > 0.1 && few.missing > 5 * Math.abs(many.missing));
+      check("6. D5: in a closed room nothing counts 0", same((await set("zero=true&depth=0")).light, (await set("depth=0")).light));
+      const sky = await set("room=open&zero=true"), seen = await set("room=open");
+      check(`6. D5: without a ceiling the power towards the sky is not shot (${figures.percent(sky.missing)})`, sky.missing > 0.1 && Math.abs(seen.missing) < 0.01);
+      const printed = await set("sphere=true&centre=true&rounded=true&zero=true");
+      check("6. all rules of the print give the light of --literal", close(printed.light, expected.furnace.light, 1e-12));
+    },
+    7: async () => {
+      await open("#7");
+      await settled();
+      const { errors, rays } = lesson.figure.values;
+      const least = (method) => Math.min(...errors[method]);
+      check(`7. stored transport is far below (${figures.percent(least("stored-transport"))}, hemisphere ${figures.percent(least("hemisphere"))})`, least("stored-transport") < 0.5 * least("hemisphere"));
+      const shot = errors["progressive-monte-carlo"], slope = Math.log(shot.at(-1) / shot[2]) / Math.log(rays["progressive-monte-carlo"].at(-1) / rays["progressive-monte-carlo"][2]);
+      check(`7. shooting falls with a slope of −1/2 (${slope.toFixed(2)})`, near(slope, -0.5, 0.25));
+      check("7. the sentence names the first useful picture", lesson.figure.values.first === "stored-transport" && document.querySelector(".sentence").textContent.includes("stored-transport"));
+      const room = new hemilux.Room(rooms.boxes({ n: 6 })), run = room.run("stored-transport", { steps: 2 }).step().step();
+      check("7. the default method has the program's light", close(run.light, expected.stored.light, 1e-8));
+      run.delete();
+      room.delete();
+    },
+    8: async () => {
+      const guides = {};
+      for (const wall of [true, false]) {
+        await open(`#8?wall=${wall}`);
+        guides[wall] = Object.fromEntries(lesson.figure.values.results.map((result) => [result.name, result]));
+      }
+      const spread = (of) => Math.max(...Object.values(of).map(({ all: error }) => error)) / Math.min(...Object.values(of).map(({ all: error }) => error));
+      check("8. all guides shoot about as many rays", Object.values(guides.true).every(({ rays }) => near(rays, guides.true.none.rays, 0.05)));
+      check("8. without the screen the things get better by counts", guides.false.counts.detail < guides.false.none.detail);
+      check(`8. the gain is small: the best and the worst of all surfaces differ by less than a quarter (${spread(guides.true).toFixed(2)}, ${spread(guides.false).toFixed(2)})`, spread(guides.true) < 1.25 && spread(guides.false) < 1.25);
+    },
+    9: async () => {
+      await open("#9");
+      const { ratio } = lesson.figure.values;
+      await open("#9?reflectance=0.85");
+      const bright = lesson.figure.values.ratio;
+      check(`9. shooting needs many times the rays (${ratio.toFixed(0)}), more in a brighter room (${bright.toFixed(0)})`, ratio > 5 && bright > ratio);
+    },
+    10: async () => {
+      const at = async (rest) => { await open(`#10?${rest}`); return { ...lesson.figure.values }; };
+      const coarse = await at("cells=3"), middle = await at("cells=6"), fine = await at("cells=12"), many = await at("cells=6&rays=1024");
+      check(`10. patches half as wide halve the error (${[coarse, middle, fine].map(({ patches }) => figures.percent(patches)).join(", ")})`, near(middle.patches / fine.patches, 2, 0.3));
+      check(`10. gathers are far better than the patches that they come from (${figures.percent(middle.gathered)})`, middle.gathered < 0.5 * middle.patches);
+      check("10. more rays of a gather leave less noise", many.gathered < middle.gathered);
+      check("10. there are 976 patches at most", fine.count === 976);
     },
   };
 

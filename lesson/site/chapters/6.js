@@ -13,10 +13,10 @@ the fault is gone.</p>
 <p><b>Rays from the centre</b> (D2) find the form factors of a point. Corners are wrong again; more rays do not help.</p>
 <p><b>Rounded numbers</b> (D4) lose the power of every triangle that is due less than half a ray. Fewer rays lose
 more.</p>
-<p><b>Density 0 gets no ray</b> (D5). In a closed room nothing counts 0. Take the open scene: power towards the sky is
-not lost light, but it is no longer shot.</p>
-<p>Now read the sentence. The <i>balance</i> compares what is emitted with what is absorbed and what escapes. It misses
-D1 and D2: all power arrives, in the wrong place. The <i>estimated</i> error is the spread of the steps: more rays make it
+<p><b>Density 0 gets no ray</b> (D5). In a closed room nothing counts 0. Take the ceiling away: the power towards the sky
+is then not shot at all.</p>
+<p>Now read the sentence. The <i>balance</i> compares what is emitted with what is absorbed and what escapes. It does not
+notice D1 and D2: all power arrives, in the wrong place. The <i>estimated</i> error is the spread of the steps: more rays make it
 small, and the true error stays. Only a scene whose answer is known finds the fault.</p>`,
   source: {
     section: "5b", sentence: "The amount of energy distributed by each ray shot to a given spherical triangle is … proportional to the area of the spherical triangle and inversely proportional to the number of rays shot in the triangle.",

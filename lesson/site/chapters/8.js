@@ -17,13 +17,13 @@ rest gets worse, as the rays must come from somewhere.</p>
 transport (chapter 7). So the idea is sound and its gain is small. Ask why: a guide moves rays between directions, but the
 noise of shooting comes from all bounces.</p>`,
   source: {
-    section: "7", sentence: "… a wall in front of a large number of surfaces …",
+    section: "7", sentence: "This technique could possibly fail in some situations where a wall is in front of a large number of surfaces.",
     pages: ["src/radiosity/research/guides", "src/radiosity/engine/methods/stratified.cpp"],
   },
   state: { wall: true, things: 4, steps: 4, runs: 4, eye: "-0.35,0.3" },
   figure(f) {
     const view = f.view(figures.RoomView, { label: "A crowd of things, perhaps behind a screen", title: "The room", ratio: 1.25 });
-    const bars = f.view(figures.View, { label: "Errors of guides", title: "Error with as many rays: all, and the things alone", ratio: 1.25, kind: "chart" });
+    const bars = f.view(figures.View, { label: "Errors of guides", title: "Error: all above, the things below", ratio: 1.25, kind: "chart" });
     f.toggle("wall", "A screen before the crowd");
     f.slider("things", "Things in a row", 2, 5, 1);
     f.slider("steps", "Steps", 2, 12, 1);
