@@ -18,8 +18,8 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
 look() { # options of the browser and the page
-    HOME=$scratch timeout 300 "$browser" --headless --no-sandbox --disable-gpu --enable-logging=stderr \
-        --hide-scrollbars --user-data-dir="$scratch/profile" "$@" 2>"$scratch/log"
+    HOME=$scratch timeout 900 "$browser" --headless --no-sandbox --disable-gpu --enable-logging=stderr \
+        --hide-scrollbars --force-prefers-reduced-motion --user-data-dir="$scratch/profile" "$@" 2>"$scratch/log"
 }
 cp -r "$site" "$scratch/site"
 node "$root/lesson/tests/scenes.js" "$hemilux" "$site" "$scratch/site"

@@ -9,6 +9,9 @@
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/solving/solver.h"
 
+#include <algorithm>
+#include <numbers>
+
 using namespace hemilux;
 using namespace hemilux::lesson;
 
@@ -74,29 +77,69 @@ LESSON_CALL bool room_factors(const Room* room, std::uint32_t rays, double seed)
     });
 }
 
-/// Puts, for each point, the irradiance [W/m2] in three channels that rays gather from a radiosity.
-/// A point is seven numbers: place [m], normal and the patch that it lies on.
+namespace {
+
+/// A point of a surface in the local frame.
+struct Point {
+    Vec3 place, normal;
+    std::uint32_t facet;
+};
+
+/// Returns the irradiance from what patches emit [W/m2], by so many shadow rays to each emitter.
+Vec3 direct_light(const Room& room, const Point& at, std::uint32_t rays, Rng& random) {
+    Vec3 sum(0.0);
+    for (const Patch& patch : room.mesh.patches()) {
+        const Vec3 emission = room.mesh.material(patch).emission;
+        for (std::uint32_t ray = 0; ray < rays && emission != Vec3(0.0); ++ray) {
+            const double u = random.uniform(), v = random.uniform();
+            const Vec3 to = patch.shape.sample({u, v}) - at.place;
+            const double r_squared = glm::dot(to, to);
+            const double cosines = glm::dot(at.normal, to) * glm::dot(patch.normal, -to);
+            const Ray shadow{.origin = at.place, .direction = to, .t_max = 1, .from = at.facet};
+            if (glm::dot(at.normal, to) > 0 && cosines > 0 &&
+                !room.tracer.occluded(shadow, patch.facet))
+                sum += emission * patch.area * cosines /
+                       (std::numbers::pi * r_squared * r_squared * double(rays));
+        }
+    }
+    return sum;
+}
+
+/// Returns the irradiance from what patches reflect [W/m2], where their radiosity is three numbers
+/// each.
+Vec3 reflected_light(const Room& room, const Point& at, const double* radiosity, std::uint32_t rays,
+                     Rng& random) {
+    const Frame frame = Frame::from_normal(at.normal);
+    Vec3 sum(0.0);
+    for (std::uint32_t ray = 0; ray < rays; ++ray) {
+        const auto hit = room.tracer.closest({.origin = at.place,
+                                              .direction = frame.to_world(sample_cosine(random)),
+                                              .from = at.facet});
+        const std::uint32_t seen = hit ? room.mesh.patch_at(*hit) : none;
+        if (seen == none)
+            continue;
+        const double* const B = radiosity + std::size_t{3} * seen;
+        sum += Vec3(B[0], B[1], B[2]) - room.mesh.material(seen).emission;
+    }
+    return sum / double(rays);
+}
+
+} // namespace
+
+/// Puts, for each point, the irradiance [W/m2] in three channels that rays gather from a radiosity,
+/// and shadow rays from what is emitted. A point is seven numbers: place [m], normal and the patch
+/// that it lies on.
 LESSON_CALL bool room_gather(const Room* room, const double* radiosity, const double* points,
                              std::uint32_t count, std::uint32_t rays, double seed) {
     return answered([&] {
         for (std::uint32_t p = 0; p < count; ++p) {
-            const double* const at = points + 7 * p;
-            const Vec3 origin = room->mesh.frame().to_local({at[0], at[1], at[2]});
-            const Frame frame = Frame::from_normal({at[3], at[4], at[5]});
-            const std::uint32_t facet = room->mesh.patches()[static_cast<std::size_t>(at[6])].facet;
+            const double* const at = points + std::size_t{7} * p;
+            const Point point{room->mesh.frame().to_local({at[0], at[1], at[2]}),
+                              {at[3], at[4], at[5]},
+                              room->mesh.patches()[static_cast<std::size_t>(at[6])].facet};
             Rng random(hash_words({static_cast<std::uint64_t>(seed), p}));
-            Vec3 sum(0.0);
-            for (std::uint32_t ray = 0; ray < rays; ++ray) {
-                const auto hit =
-                    room->tracer.closest({.origin = origin,
-                                          .direction = frame.to_world(sample_cosine(random)),
-                                          .from = facet});
-                const std::uint32_t seen = hit ? room->mesh.patch_at(*hit) : none;
-                if (seen != none)
-                    sum +=
-                        Vec3(radiosity[3 * seen], radiosity[3 * seen + 1], radiosity[3 * seen + 2]);
-            }
-            put(sum / double(rays));
+            put(direct_light(*room, point, std::max(1U, rays / 8), random) +
+                reflected_light(*room, point, radiosity, rays, random));
         }
     });
 }

@@ -38,8 +38,8 @@ LESSON_CALL bool hemisphere_cells(int depth) {
     });
 }
 
-/// Puts directions of a triangle, in a patch's own frame, as rays of the page of section 5 have them:
-/// by the cosine law.
+/// Puts directions of a triangle, in a patch's own frame, as rays of the page of section 5 have
+/// them: by the cosine law.
 LESSON_CALL bool hemisphere_rays(int depth, std::uint32_t cell, std::uint32_t rays, double seed) {
     return answered([&] {
         const Hemisphere hemisphere(depth);

@@ -19,9 +19,8 @@ std::optional<Hit> NotingTracer::closest(const Ray& ray) const {
 void NotingTracer::closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const {
     tracer_->closest_stream(rays, out);
     for (std::size_t k = 0; k < rays.size() && noted_.size() < room_for_; ++k)
-        note(rays[k], out[k].facet == none
-                          ? std::nullopt
-                          : std::optional(tracer_->locate(rays[k], out[k].facet)));
+        note(rays[k], out[k].facet == none ? std::nullopt
+                                           : std::optional(tracer_->locate(rays[k], out[k].facet)));
 }
 
 void NotingTracer::note(const Ray& ray, const std::optional<Hit>& hit) const {

@@ -265,10 +265,12 @@ const figures = (() => {
       const [xs, ys] = this.range ?? [span(0), span(1)];
       const map = (value, [low, high]) => this.log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
       const place = ([x, y]) => [left + map(x, xs) * (this.width - left - right), this.height - bottom - map(y, ys) * (this.height - top - bottom)];
+      // Powers of ten, or round numbers.
       const ticks = ([low, high]) => {
-        if (!this.log) return Array.from({ length: 6 }, (_, k) => low + k / 5 * (high - low));
-        const list = [];
-        for (let tick = low; tick <= high * 1.001; tick *= 10) list.push(tick);
+        const list = [], rough = (high - low) / 5, power = 10 ** Math.floor(Math.log10(rough));
+        const step = [1, 2, 5, 10].map((k) => k * power).find((k) => k >= rough);
+        if (this.log) for (let tick = 10 ** Math.ceil(Math.log10(low) - 1e-9); tick <= high * 1.001; tick *= 10) list.push(tick);
+        else for (let k = Math.ceil(low / step - 1e-9); k * step <= high * 1.001; ++k) list.push(Number((k * step).toPrecision(6)));
         return list;
       };
       for (const tick of ticks(xs)) {

@@ -235,8 +235,10 @@ const lesson = (() => {
     if (chosen) showChapter(chosen, values);
     else showPage(["worksheet", "plan"].includes(name) ? name : "start");
     document.querySelectorAll("nav a").forEach((link) => {
-      if (link.getAttribute("href") === `#${name}`) link.setAttribute("aria-current", "page");
-      else link.removeAttribute("aria-current");
+      if (link.getAttribute("href") === `#${name}`) {
+        link.setAttribute("aria-current", "page");
+        link.parentNode.parentNode.scrollLeft = link.offsetLeft - link.parentNode.parentNode.offsetLeft - 60;
+      } else link.removeAttribute("aria-current");
     });
     if (name !== shown) { window.scrollTo(0, 0); main().focus({ preventScroll: true }); }
     shown = name;

@@ -14,7 +14,14 @@
     return a.length === b.length && a.every((value, k) => Math.abs(value - b[k]) <= tolerance * scale);
   };
   const colours = (canvas) => new Set(new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size;
-  const pictures = () => all(".views canvas").map((canvas) => canvas.toDataURL()).join();
+  // A hash of what a canvas shows, made small.
+  const small = Object.assign(document.createElement("canvas"), { width: 160, height: 120 }), pen = small.getContext("2d", { willReadFrequently: true });
+  const picture = (canvas) => {
+    pen.clearRect(0, 0, small.width, small.height);
+    pen.drawImage(canvas, 0, 0, small.width, small.height);
+    return new Uint32Array(pen.getImageData(0, 0, small.width, small.height).data.buffer).reduce((hash, word) => (Math.imul(hash, 31) + word) | 0, 7);
+  };
+  const pictures = () => all(".views canvas").map(picture).join();
   const key = (name, target = document) => target.dispatchEvent(new KeyboardEvent("keydown", { key: name, bubbles: true, cancelable: true }));
   const open = async (hash) => {
     location.hash = "#worksheet";
@@ -25,7 +32,7 @@
   };
   const values = () => JSON.stringify(lesson.figure.values);
   // Waits until the figure has done what takes several pictures.
-  const settled = async () => { while (lesson.figure?.isBusy) await wait(20); await wait(1500); };
+  const settled = async () => { while (lesson.figure?.isBusy) await wait(20); await wait(250); };
 
   // What is true of each chapter.
   const asChapter = async (chapter) => {
@@ -40,7 +47,8 @@
     say("no text is wider than the window", document.documentElement.scrollWidth <= window.innerWidth);
     say("all controls have names", all(".controls input, .controls select").every((input) => input.labels[0]?.textContent.length > 1));
     const inputs = all(".controls [data-key]");
-    for (const input of chapter.timed && window.innerWidth < 1000 ? inputs.slice(0, 1) : inputs) {
+    for (const input of window.innerWidth < 1000 ? inputs.slice(0, 1) : inputs) {
+      if (chapter.needs?.[input.dataset.key]) lesson.figure.set(chapter.needs[input.dataset.key]);
       const before = values() + pictures();
       if (input.type === "checkbox") input.checked = !input.checked;
       else if (input.type === "range") input.value = Number(input.value) === Number(input.max) ? input.min : input.max;
@@ -49,7 +57,7 @@
       await settled();
       say(`${input.dataset.key} changes what is shown`, values() + pictures() !== before);
       say(`${input.dataset.key} is in the address`, location.hash.includes(`${input.dataset.key}=`));
-      lesson.figure.set({ [input.dataset.key]: state[input.dataset.key] });
+      lesson.figure.set({ ...state, eye: lesson.figure.state.eye });
       await settled();
     }
     const [range] = all(".controls input[type=range]");
@@ -64,10 +72,10 @@
     }
     const room = document.querySelector("canvas.room");
     if (room) {
-      const before = room.toDataURL();
+      const before = picture(room);
       key("ArrowLeft", room);
       await wait(300);
-      say("an arrow key turns the room", room.toDataURL() !== before && location.hash.includes("eye="));
+      say("an arrow key turns the room", picture(room) !== before && location.hash.includes("eye="));
     }
     all(".exercise").forEach((form, k) => {
       const exercise = exercises[k], input = form.querySelector("input, select"), answer = () => form.querySelector("output").className;

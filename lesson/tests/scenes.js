@@ -32,6 +32,14 @@ const factors = (scene, ...options) => {
   return rows(table);
 };
 
+// The pages of source that chapters name are there.
+const root = path.join(__dirname, "../..");
+for (const file of fs.readdirSync(path.join(site, "chapters"))) {
+  const text = fs.readFileSync(path.join(site, "chapters", file), "utf8");
+  for (const [page] of text.matchAll(/\b(src|docs)\/[\w/]+(\.\w+)?/g))
+    if (!fs.existsSync(path.join(root, page))) throw new Error(`${file} names ${page}, which is not there`);
+}
+
 const pair = write("pair", rooms.pair({})), small = write("small", rooms.small({})), boxes = write("boxes", rooms.boxes({ n: 6 }));
 const crowd = write("crowd", rooms.crowd({ things: 4 })), furnace = write("furnace", rooms.furnace());
 const expected = {

@@ -23,6 +23,7 @@ small, and the true error stays. Only a scene whose answer is known finds the fa
     pages: ["src/radiosity/paper/pages/section_5_hemisphere.cpp", "docs/paper/decisions.md"],
   },
   state: { sphere: true, centre: false, rounded: false, zero: false, room: "furnace", depth: 2, rays: 64, eye: "0.75,0.55" },
+  needs: { zero: { room: "open" } }, // in a closed room this switch changes nothing
   figure(f) {
     const view = f.view(figures.RoomView, { label: "A room, coloured by how far each patch is off", title: "Too dark is blue, too bright is red", bright: true });
     const chart = f.view(figures.ChartView, { label: "Error after each step: true and estimated", title: "Error after each step", x: "steps", ratio: 1.25, formY: figures.percent });

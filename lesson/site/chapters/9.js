@@ -39,7 +39,7 @@ from one spot and most patches do not matter, shooting goes straight to them.</p
         f.rooms = [];
         room = f.room(rooms.boxes({ n: 6, reflectance }));
         view.room = room;
-        const exact = room.run("stored-transport", { rays: 2048, seed: 99 });
+        const exact = room.run("stored-transport", { rays: 1024, seed: 99 });
         reference = exact.step().light;
         exact.delete();
         const curve = (method, list) => list.map(([n, steps]) => {
@@ -49,7 +49,7 @@ from one spot and most patches do not matter, shooting goes straight to them.</p
           run.delete();
           return point;
         });
-        curves = { stored: curve("stored-transport", [[8, 1], [16, 1], [32, 1], [64, 1], [128, 1], [256, 1]]), shooting: curve("progressive-monte-carlo", [[8, 1], [16, 2], [32, 4], [64, 8], [64, 32]]) };
+        curves = { stored: curve("stored-transport", [[8, 1], [16, 1], [32, 1], [64, 1], [128, 1], [256, 1]]), shooting: curve("progressive-monte-carlo", [[8, 1], [16, 2], [32, 4], [64, 8], [64, 16]]) };
         hits = null;
         built = String(reflectance);
       }
