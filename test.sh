@@ -36,7 +36,7 @@ esac
 lint() {
     format=$(command -v clang-format-14 || command -v clang-format)
     tidy=$(command -v clang-tidy-14 || command -v clang-tidy)
-    find src tests bench examples \( -name '*.cpp' -o -name '*.h' \) -print0 |
+    find src tests bench examples lesson \( -name '*.cpp' -o -name '*.h' \) -print0 |
         xargs -0 "$format" --dry-run -Werror
     echo "the format is right"
     cmake --preset tidy >/dev/null

@@ -36,7 +36,7 @@ const factors = (scene, ...options) => {
 const root = path.join(__dirname, "../..");
 for (const file of fs.readdirSync(path.join(site, "chapters"))) {
   const text = fs.readFileSync(path.join(site, "chapters", file), "utf8");
-  for (const [page] of text.matchAll(/\b(src|docs)\/[\w/]+(\.\w+)?/g))
+  for (const [page] of text.matchAll(/\b(src|docs)\/[\w/-]+(\.\w+)?/g))
     if (!fs.existsSync(path.join(root, page))) throw new Error(`${file} names ${page}, which is not there`);
 }
 

@@ -6,7 +6,7 @@ lesson.chapter({
 <p>A solver gives one number for each patch. Light does not stop at the edges of patches: a shadow runs across them, and
 near a corner it changes within one. Even the exact solution on patches is wrong between them.</p>
 <p>The chart follows the light along the dotted line on the floor. The stairs are the patches. The fine line is the
-reference: a solution on 976 patches, gathered with many rays.</p>
+reference: a solution on 1024 patches, gathered with many rays.</p>
 <p><b>Division</b> makes the stairs smaller. Patches half as wide halve the error, and there are four times as many.</p>
 <p><b>Gathering</b> asks again, at each point: rays by the cosine law take the mean of what the patches reflect, and
 shadow rays ask whether the lamp is seen. Now the patches are seen from afar, and their errors cancel. From the same coarse solution comes a far better answer.

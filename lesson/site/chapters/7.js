@@ -27,7 +27,7 @@ method that wins in one room may lose in the next.</p>`,
     const mean = f.view(figures.RoomView, { label: "The room by the method of section 5", title: "Section 5 at the same time", ratio: 1.5 });
     f.slider("useful", "Useful at", 0.5, 20, 0.5, (share) => `${share} %`);
     f.slider("seconds", "Seconds each", 0.25, 3, 0.25);
-    f.choice("room", "Room", { boxes: "two boxes, 244 patches", fine: "two boxes, 976 patches", crowd: "a crowd, 169 patches" });
+    f.choice("room", "Room", { boxes: "two boxes, 256 patches", fine: "two boxes, 1024 patches", crowd: "a crowd, 185 patches" });
     f.slider("seed", "Seed", 1, 20, 1);
     f.button("Race again", () => f.update(), "g");
     const colours = { "stored-transport": "#d9720b", hemisphere: "#0b6bcb", stratified: "#4c9a2a", "progressive-monte-carlo": "#8e44ad", "monte-carlo": "#c0392b", "hemisphere-1997": "#16a0a0", progressive: "#7f6a3f", matrix: "#d3567f" };
