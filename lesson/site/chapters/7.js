@@ -32,7 +32,7 @@ method that wins in one room may lose in the next.</p>`,
     f.button("Race again", () => f.update(), "g");
     const colours = { "stored-transport": "#d9720b", hemisphere: "#0b6bcb", stratified: "#4c9a2a", "progressive-monte-carlo": "#8e44ad", "monte-carlo": "#c0392b", "hemisphere-1997": "#16a0a0", progressive: "#7f6a3f", matrix: "#d3567f" };
     // Two keep their rays and double them in each step.
-    const maxSteps = (method) => ["stored-transport", "matrix"].includes(method) ? 8 : 24 * f.state.seconds;
+    const maxSteps = (method) => ({ "stored-transport": 7, matrix: 4 })[method] ?? 24 * f.state.seconds;
     f.change = () => {
       const { useful, seconds, seed } = f.state, key = [f.state.room, seconds, seed].join();
       const first = (runs) => runs.map((run) => ({ run, at: run.points.find(([, error]) => error <= useful / 100) })).filter(({ at }) => at).sort((a, b) => a.at[0] - b.at[0])[0];
@@ -66,7 +66,7 @@ method that wins in one room may lose in the next.</p>`,
       f.isBusy = true;
       const take = (run) => {
         const begin = performance.now();
-        run.solver ??= room.run(run.method, { rays: run.method === "stored-transport" ? 16 : 32, seed });
+        run.solver ??= room.run(run.method, { rays: { "stored-transport": 16, matrix: 8 }[run.method] ?? 32, seed });
         run.solver.step();
         run.time += Math.max((performance.now() - begin) / 1000, 1e-4);
         ++run.steps;
