@@ -184,8 +184,8 @@
       check(`6. the corrected rules are right within their error (${figures.percent(right.off)})`, right.off < 1.5 * right.estimated);
       check(`6. D1: wrong (${figures.percent(sphere.off)}), and neither the balance nor the estimate notices`, sphere.off > 2 * sphere.estimated && Math.abs(sphere.missing) < 0.01);
       check("6. at depth 0 the fault of D1 is gone", flat.off < 1.5 * flat.estimated);
-      const more = await set("centre=true&rays=128");
-      check(`6. D2: wrong, and more rays do not help (${figures.percent(centre.off)}, ${figures.percent(more.off)})`, more.off > 2 * more.estimated && Math.abs(more.missing) < 0.01);
+      const more = await set("centre=true&rays=512");
+      check(`6. D2: some 2 % stay, however many rays (${figures.percent(centre.off)}, ${figures.percent(more.off)})`, near(more.off, 0.02, 0.3) && more.off > 1.8 * more.estimated && Math.abs(more.missing) < 0.01);
       const few = await set("rounded=true&rays=4"), many = await set("rounded=true&rays=128");
       check(`6. D4: power is lost, more of it by fewer rays (${figures.percent(few.missing)}, ${figures.percent(many.missing)})`, few.missing > 0.1 && few.missing > 5 * Math.abs(many.missing));
       check("6. D5: in a closed room nothing counts 0", same((await set("zero=true&depth=0")).light, (await set("depth=0")).light));
@@ -202,7 +202,10 @@
       check(`7. stored transport is far below (${figures.percent(least("stored-transport"))}, hemisphere ${figures.percent(least("hemisphere"))})`, least("stored-transport") < 0.5 * least("hemisphere"));
       const shot = errors["progressive-monte-carlo"], slope = Math.log(shot.at(-1) / shot[2]) / Math.log(rays["progressive-monte-carlo"].at(-1) / rays["progressive-monte-carlo"][2]);
       check(`7. shooting falls with a slope of −1/2 (${slope.toFixed(2)})`, near(slope, -0.5, 0.25));
-      check("7. the sentence names the first useful picture", lesson.figure.values.first === "stored-transport" && document.querySelector(".sentence").textContent.includes("stored-transport"));
+      // Which is first by the clock is not tested; which needs fewer rays is.
+      const { first } = lesson.figure.values, raysTo = (method) => rays[method][errors[method].findIndex((error) => error <= 0.05)] ?? Infinity;
+      check("7. the sentence names a method with a useful picture", first && least(first) <= 0.05 && document.querySelector(".sentence").textContent.includes(first));
+      check("7. stored transport has one after fewer rays than shooting", raysTo("stored-transport") < Math.min(...["hemisphere", "stratified", "monte-carlo", "progressive-monte-carlo"].map(raysTo)));
       const room = new hemilux.Room(rooms.boxes({ n: 6 })), run = room.run("stored-transport", { steps: 2 }).step().step();
       check("7. the default method has the program's light", close(run.light, expected.stored.light, 1e-8));
       run.delete();

@@ -10,7 +10,7 @@ dark, red too bright.</p>
 <p><b>Areas on the sphere</b> (D1). Power by solid angle and directions by the cosine break Lambert's law once triangles
 are divided: too much light leaves along the surface. Corners get it. Set the depth to 0: octants are equal both ways, and
 the fault is gone.</p>
-<p><b>Rays from the centre</b> (D2) find the form factors of a point. Corners are wrong again; more rays do not help.</p>
+<p><b>Rays from the centre</b> (D2) find the form factors of a point. Some 2 % stay here, however many rays: set 512.</p>
 <p><b>Rounded numbers</b> (D4) lose the power of every triangle that is due less than half a ray. Fewer rays lose
 more.</p>
 <p><b>Density 0 gets no ray</b> (D5). In a closed room nothing counts 0. Take the ceiling away: the power towards the sky
@@ -32,7 +32,7 @@ small, and the true error stays. Only a scene whose answer is known finds the fa
     f.toggle("rounded", "D4 rounded numbers, for each patch");
     f.toggle("zero", "D5 density 0 gets no ray");
     f.slider("depth", "Depth (D6)", 0, 3, 1);
-    f.slider("rays", "Rays a patch", 4, 128, 4);
+    f.slider("rays", "Rays a patch", 4, 512, 4);
     f.choice("room", "Room", { furnace: "furnace: B = 2", open: "furnace without its ceiling" });
     const steps = 8;
     view.grid = true;
