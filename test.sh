@@ -7,12 +7,14 @@
 #   ./test.sh --asan    fast tests under the address and undefined-behaviour sanitizers
 #   ./test.sh --tsan    fast tests that use threads under the thread sanitizer
 #   ./test.sh --clang   fast tests of a build by clang++
+#   ./test.sh --lesson  the lesson alone: built by emscripten, walked through in headless Chromium, and compared
+#                       with the program
 #   ./test.sh --lint    no tests: the format (.clang-format), and clang-tidy over src/ (.clang-tidy)
 set -eu
 cd "$(dirname "$0")"
 
 usage() {
-    sed -n '2,11s/^# \{0,1\}//p' "$0"
+    sed -n '2,13s/^# \{0,1\}//p' "$0"
 }
 preset=dev
 slow=yes
@@ -24,6 +26,7 @@ case ${1-} in
 --asan) preset=asan slow=no ;;
 --tsan) preset=tsan slow=no ;;
 --clang) preset=clang slow=no packages="catch2 clang" ;;
+--lesson) preset=release packages="" ;;
 --lint) preset=tidy packages="clang clang-format clang-tidy" ;;
 -h | --help) usage; exit 0 ;;
 *) usage >&2; exit 1 ;;
@@ -33,7 +36,7 @@ esac
 lint() {
     format=$(command -v clang-format-14 || command -v clang-format)
     tidy=$(command -v clang-tidy-14 || command -v clang-tidy)
-    find src tests bench examples \( -name '*.cpp' -o -name '*.h' \) -print0 |
+    find src tests bench examples lesson \( -name '*.cpp' -o -name '*.h' \) -print0 |
         xargs -0 "$format" --dry-run -Werror
     echo "the format is right"
     cmake --preset tidy >/dev/null
@@ -53,6 +56,21 @@ cores=$(nproc 2>/dev/null || echo 2)
 if [ $preset = tidy ]; then
     lint
     exit 0
+fi
+if [ "${1-}" = --lesson ]; then
+    missing=
+    for program in em++ node chromium; do
+        command -v $program >/dev/null || missing="$missing $program"
+    done
+    if [ -n "$missing" ]; then
+        echo "the lesson is not tested, as these are not found:$missing" >&2
+        echo "on Debian: apt install emscripten chromium" >&2
+        exit 77
+    fi
+    scripts/lesson.sh
+    cmake --preset release >/dev/null
+    cmake --build --preset release --parallel "$cores" --target hemilux_program
+    exec scripts/check_lesson.sh build/release/hemilux build/lesson/site
 fi
 cmake --preset "$preset" >/dev/null
 cmake --build --preset "$preset" --parallel "$cores"

@@ -37,7 +37,8 @@ class Pool {
             ending_ = true;
         }
         posted_.notify_all();
-        threads_.clear(); // joins
+        for (std::thread& thread : threads_)
+            thread.join();
     }
 
     void run(Job& job) {
@@ -118,7 +119,7 @@ class Pool {
     std::atomic<std::size_t> open_jobs_{0};
     std::size_t sleeping_ = 0;
     bool ending_ = false;
-    std::vector<std::jthread> threads_;
+    std::vector<std::thread> threads_;
 };
 
 } // namespace

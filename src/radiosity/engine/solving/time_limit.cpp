@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
-#include <stop_token>
 
 namespace hemilux {
 
@@ -13,20 +10,21 @@ TimeLimit::TimeLimit(StopFlag& flag, std::optional<double> seconds) : flag_(flag
         return;
     constexpr double longest = 1e8; // three years, which a clock can add to its time
     const std::chrono::duration<double> span(std::clamp(*seconds, 0.0, longest));
-    waiting_ = std::jthread([&flag, span](const std::stop_token& ended) {
-        std::mutex mutex;
-        std::condition_variable_any never; // only the end wakes it
-        std::unique_lock lock(mutex);
-        never.wait_for(lock, ended, span, [] { return false; });
-        if (!ended.stop_requested())
-            flag.set_out_of_time(true);
+    waiting_ = std::thread([this, span] {
+        std::unique_lock lock(mutex_);
+        if (!end_.wait_for(lock, span, [this] { return ended_; }))
+            flag_.set_out_of_time(true);
     });
 }
 
 TimeLimit::~TimeLimit() {
     if (!waiting_.joinable())
         return;
-    waiting_.request_stop();
+    {
+        const std::lock_guard lock(mutex_);
+        ended_ = true;
+    }
+    end_.notify_one();
     waiting_.join();
     flag_.set_out_of_time(false);
 }

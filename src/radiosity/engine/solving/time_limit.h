@@ -3,6 +3,8 @@
 
 #include "radiosity/paper/solving/stop_flag.h"
 
+#include <condition_variable>
+#include <mutex>
 #include <optional>
 #include <thread>
 
@@ -17,7 +19,10 @@ class TimeLimit {
 
   private:
     StopFlag& flag_;
-    std::jthread waiting_;
+    std::mutex mutex_;
+    std::condition_variable end_; ///< only the end wakes who waits
+    bool ended_ = false;
+    std::thread waiting_;
 };
 
 } // namespace hemilux
