@@ -16,8 +16,11 @@ namespace hemilux {
 /// Throws UsageError for a camera given whose eye and target are one point at the scene's scale.
 void check_camera(const ViewSettings& view, const Mesh& mesh);
 
-/// Returns the option that asks for this camera: "--camera 1,2,3,4,5,6,45".
+/// Returns the option that asks for this camera: "--camera 1,2,3,4,5,6,45". Places have six digits
+/// of the distance at which it looks, wherever the origin is.
 [[nodiscard]] std::string camera_text(const Camera& camera);
+/// Returns the camera that this option gives, so that it may be copied.
+[[nodiscard]] Camera as_printed(Camera camera);
 
 /// The time that pictures may still take once the user has asked the program to end: until two
 /// seconds after this was made, so that small ones are written. It refers to the argument.

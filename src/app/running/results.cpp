@@ -7,12 +7,13 @@
 #include "app/report/report_page.h"
 #include "app/running/error_map.h"
 #include "app/running/layered_picture.h"
+#include "app/running/lit_file_output.h"
 #include "app/terminal/log.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
+#include "io/lightmaps/lightmap.h"
 #include "io/meshes/glb.h"
 #include "io/meshes/indirect_light.h"
-#include "io/meshes/lightmap.h"
 #include "io/meshes/vtu.h"
 #include "io/pictures/automatic_camera.h"
 #include "io/pictures/exr.h"
@@ -115,7 +116,7 @@ int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
 /// Writes a .glb file, and its lightmap as an attempt of its own.
 void write_lightmapped(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
                        const CornerClasses& classes, VertexLight light, int up,
-                       WriteReport& report) {
+                       const std::optional<Image>& gathered, WriteReport& report) {
     const int size = *settings.lightmap;
     try {
         const std::vector<LightmapChart> charts = find_charts(mesh, size);
@@ -129,7 +130,8 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path, c
         light.of_class = std::move(of_class);
         write_glb(path, mesh, corners.classes, light, settings.from, up, texcoords);
         std::vector<ExrChannel> channels;
-        add_exr_channels(channels, "", lightmap(charts, corners, light.of_class, size));
+        add_half_exr_channels(channels, gathered ? *gathered
+                                                 : lightmap(charts, corners, light.of_class, size));
         report.attempt(lightmap_path(path), [&] {
             write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
         });
@@ -151,7 +153,8 @@ void write_mesh(const SolveSettings& settings, const Output& output, const Resul
         return write_ply(output.path, results.mesh, classes, light, settings.ply_colours);
     const int up = up_axis(settings.view.up, results.mesh, settings.verbosity);
     if (settings.lightmap)
-        write_lightmapped(settings, output.path, results.mesh, classes, light, up, report);
+        write_lightmapped(settings, output.path, results.mesh, classes, light, up,
+                          results.gathered.lightmap, report);
     else
         write_glb(output.path, results.mesh, classes, light, settings.from, up);
 }
@@ -166,6 +169,8 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
         return picture.write(output, settings.from, settings.verbosity);
     case OutputKind::ply:
     case OutputKind::glb:
+        if (settings.file_bake.asked)
+            return write_lit_file(settings, output.path, results, report);
         return write_mesh(settings, output, results, classes.get(), report);
     case OutputKind::vtu:
         return write_vtu(output.path, results.mesh, classes.get(), solution, settings.from);
@@ -179,8 +184,8 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
 }
 
 void write_report(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, options, statistics, steps, points, gathered, warnings,
-                 monitor] = results;
+    const auto& [mesh, tracer, solution, options, statistics, steps, points, gathered,
+                 file_lightmap, warnings, monitor] = results;
     ReportContent content{mesh,
                           solution,
                           statistics,

@@ -2,6 +2,7 @@
 
 #include "io/files/error.h"
 #include "io/files/input_file.h"
+#include "io/files/text_words.h"
 #include "io/textures/picture_checks.h"
 
 #include <cstdlib>
@@ -26,6 +27,7 @@ void* bounded_realloc(void* bytes, std::size_t size) {
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_PNG
+#define STBI_ONLY_TGA
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 16384
 #include <stb_image.h>
@@ -56,8 +58,9 @@ Size size_of(std::string_view bytes, const std::string& place) {
     if (bytes.size() > std::numeric_limits<int>::max() ||
         stbi_info_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &size.width,
                               &size.height, &channels) == 0)
-        throw InputError(place, "expected a PNG or JPEG picture of at most 16384 x 16384 pixels, "
-                                "its header is broken");
+        throw InputError(place,
+                         "expected a PNG, JPEG or TGA picture of at most 16384 x 16384 pixels, "
+                         "its header is broken");
     if (size.width < 1 || size.height < 1 || size.texels() > max_texels)
         throw InputError(place, "expected a picture of at most 67108864 pixels, found " +
                                     std::to_string(size.width) + " x " +
@@ -87,7 +90,7 @@ Texture decode_texture(std::string_view bytes, const std::string& place) {
         const std::string reason = stbi_failure_reason();
         throw InputError(
             place,
-            "expected a whole PNG or JPEG picture: " +
+            "expected a whole PNG, JPEG or TGA picture: " +
                 (reason == "outofmem" ? "its data unpack to more than its pixels take" : reason));
     }
     const auto width = static_cast<std::uint32_t>(size.width),
@@ -97,9 +100,9 @@ Texture decode_texture(std::string_view bytes, const std::string& place) {
             srgb_to_linear()};
 }
 
-std::shared_ptr<const Texture> TextureFiles::decode(std::string_view bytes,
-                                                    const std::string& key) {
-    if (!is_picture_file(bytes))
+std::shared_ptr<const Texture> TextureFiles::decode(std::string_view bytes, const std::string& key,
+                                                    bool is_tga) {
+    if (!is_tga && !is_picture_file(bytes))
         return known_[key] = nullptr;
     if (guard_)
         guard_(bytes_ + bytes_per_texel * size_of(bytes, key).texels());
@@ -113,7 +116,8 @@ std::shared_ptr<const Texture> TextureFiles::read(const std::string& path) {
         return *texture;
     if (!is_input(path, InputKind::regular))
         return known_[path] = nullptr;
-    return decode(read_input(path, InputKind::regular), path);
+    return decode(read_input(path, InputKind::regular), path,
+                  small_letters(path).ends_with(".tga"));
 }
 
 } // namespace hemilux
