@@ -37,7 +37,9 @@
 #include "radiosity/engine/solving/shared_stop.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <span>
+#include <system_error>
 
 namespace hemilux {
 
@@ -90,8 +92,18 @@ bool has_pictures(const SolveSettings& settings) {
            !settings.error_map.empty();
 }
 
+/// Returns the bytes of the scene's own file while it is written again: its buffers, their copy and
+/// its JSON.
+double bytes_of_own_file(const SolveSettings& settings) {
+    constexpr double copies = 4;
+    std::error_code error;
+    const auto size = std::filesystem::file_size(settings.scene.path, error);
+    return settings.file_bake.asked && !error ? copies * static_cast<double>(size) : 0;
+}
+
 double bytes_of_outputs(const SolveSettings& settings, std::size_t points) {
-    return (has_pictures(settings) ? bytes_of_picture(settings.view.size, settings.gather_pictures)
+    return bytes_of_own_file(settings) +
+           (has_pictures(settings) ? bytes_of_picture(settings.view.size, settings.gather_pictures)
                                    : 0) +
            bytes_of_points(points, settings.rays_of_gather()) +
            bytes_of_lightmap(settings.lightmap.value_or(0));

@@ -152,9 +152,8 @@ double bytes_of_picture(PixelSize size, bool gathered) {
 }
 
 double bytes_of_lightmap(int size) {
-    // What a texel shows, its share of a point that gathers, its light in parts and as one; then
-    // channels and files.
-    constexpr double bytes_per_texel = 16 + 64 + 48 + 12 + 4 + 36;
+    // What a texel shows, its share of a point that gathers, its light; then channels and files.
+    constexpr double bytes_per_texel = 16 + 64 + 16 + 36;
     return bytes_per_texel * size * size;
 }
 

@@ -1,5 +1,6 @@
 #include "app/running/results.h"
 
+#include "app/gathering/lit_file_output.h"
 #include "app/gathering/point_table.h"
 #include "app/gathering/shown_camera.h"
 #include "app/loading/load.h"
@@ -7,7 +8,6 @@
 #include "app/report/report_page.h"
 #include "app/running/error_map.h"
 #include "app/running/layered_picture.h"
-#include "app/running/lit_file_output.h"
 #include "app/terminal/log.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
@@ -159,6 +159,21 @@ void write_mesh(const SolveSettings& settings, const Output& output, const Resul
         write_glb(output.path, results.mesh, classes, light, settings.from, up);
 }
 
+/// Writes the output of `bake`, and its lightmap as an attempt of its own.
+void write_own_file(const SolveSettings& settings, const std::string& path, const Results& results,
+                    WriteReport& report) {
+    if (!results.gathered.lightmap)
+        throw Interrupted();
+    const Image& light = *results.gathered.lightmap;
+    write_lit_file(settings, path, results.mesh, results.file_lightmap, light);
+    report.attempt(lightmap_path(path), [&] {
+        std::vector<ExrChannel> channels;
+        add_half_exr_channels(channels, light);
+        write_exr(lightmap_path(path), light.width, light.height, std::move(channels),
+                  settings.from);
+    });
+}
+
 void write_output(const SolveSettings& settings, const Output& output, const Results& results,
                   SharedClasses& classes, Picture& picture, WriteReport& report) {
     const Solution& solution = results.solution;
@@ -170,7 +185,7 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
     case OutputKind::ply:
     case OutputKind::glb:
         if (settings.file_bake.asked)
-            return write_lit_file(settings, output.path, results, report);
+            return write_own_file(settings, output.path, results, report);
         return write_mesh(settings, output, results, classes.get(), report);
     case OutputKind::vtu:
         return write_vtu(output.path, results.mesh, classes.get(), solution, settings.from);

@@ -117,18 +117,18 @@ std::vector<std::uint32_t> Regions::grow(std::uint32_t seed) {
 
 bool Regions::overlap(const Vec3& normal, std::span<const std::uint32_t> region) const {
     const Frame frame = Frame::from_normal(normal);
-    std::vector<FlatPolygon> flat;
+    std::vector<LaidPolygon> flat;
     for (const std::uint32_t side : region)
-        flat.push_back(FlatPolygon::of(shape_of(side), frame.x, frame.y));
+        flat.push_back(LaidPolygon::of(shape_of(side), frame.x, frame.y));
     return find_flat_overlap(flat).has_value();
 }
 
 /// Gives back the sides that lie over others which were met before them.
 void Regions::separate(const Vec3& normal, std::vector<std::uint32_t>& region) {
     const Frame frame = Frame::from_normal(normal);
-    std::vector<FlatPolygon> flat;
+    std::vector<LaidPolygon> flat;
     for (const std::uint32_t side : region)
-        flat.push_back(FlatPolygon::of(shape_of(side), frame.x, frame.y));
+        flat.push_back(LaidPolygon::of(shape_of(side), frame.x, frame.y));
     const std::vector<bool> over = lie_over_earlier(flat);
     std::vector<std::uint32_t> kept;
     for (std::size_t k = 0; k < region.size(); ++k)

@@ -23,7 +23,7 @@ struct Range {
     [[nodiscard]] double length() const { return high - low; }
 };
 
-Range range_along(const FlatPolygon& polygon, const Vec2& axis) {
+Range range_along(const LaidPolygon& polygon, const Vec2& axis) {
     Range range;
     for (const Vec2& corner : polygon.corner)
         range.add(glm::dot(corner, axis));
@@ -31,7 +31,7 @@ Range range_along(const FlatPolygon& polygon, const Vec2& axis) {
 }
 
 /// Returns whether the normal of some edge of `of` parts the two (separating axis).
-bool are_parted(const FlatPolygon& of, const FlatPolygon& other) {
+bool are_parted(const LaidPolygon& of, const LaidPolygon& other) {
     for (std::size_t c = 0; c < of.corner.size(); ++c) {
         const Vec2 edge = of.corner[(c + 1) % of.corner.size()] - of.corner[c];
         const double length = glm::length(edge);
@@ -53,7 +53,7 @@ struct Box2 {
 
 /// Calls visit(a, b) for pairs of polygons that lie over each other, a < b.
 template <class Visit>
-void for_each_overlap(std::span<const FlatPolygon> polygons, const Visit& visit) {
+void for_each_overlap(std::span<const LaidPolygon> polygons, const Visit& visit) {
     std::vector<Box2> boxes(polygons.size());
     for (std::size_t k = 0; k < polygons.size(); ++k)
         for (const Vec2& corner : polygons[k].corner) {
@@ -77,19 +77,19 @@ void for_each_overlap(std::span<const FlatPolygon> polygons, const Visit& visit)
 
 } // namespace
 
-FlatPolygon FlatPolygon::of(const Polygon& polygon, const Vec3& x, const Vec3& y) {
-    FlatPolygon flat{};
+LaidPolygon LaidPolygon::of(const Polygon& polygon, const Vec3& x, const Vec3& y) {
+    LaidPolygon flat{};
     for (std::size_t c = 0; c < flat.corner.size(); ++c)
         flat.corner[c] = {glm::dot(polygon.corner[c], x), glm::dot(polygon.corner[c], y)};
     return flat;
 }
 
-bool lie_over(const FlatPolygon& a, const FlatPolygon& b) {
+bool lie_over(const LaidPolygon& a, const LaidPolygon& b) {
     return !are_parted(a, b) && !are_parted(b, a);
 }
 
 std::optional<std::pair<std::size_t, std::size_t>>
-find_flat_overlap(std::span<const FlatPolygon> polygons) {
+find_flat_overlap(std::span<const LaidPolygon> polygons) {
     std::optional<std::pair<std::size_t, std::size_t>> found;
     for_each_overlap(polygons, [&](std::size_t a, std::size_t b) {
         found = {a, b};
@@ -98,7 +98,7 @@ find_flat_overlap(std::span<const FlatPolygon> polygons) {
     return found;
 }
 
-std::vector<bool> lie_over_earlier(std::span<const FlatPolygon> polygons) {
+std::vector<bool> lie_over_earlier(std::span<const LaidPolygon> polygons) {
     std::map<std::size_t, std::vector<std::size_t>> earlier; // by polygon, those it lies over
     for_each_overlap(polygons, [&](std::size_t a, std::size_t b) {
         earlier[b].push_back(a);

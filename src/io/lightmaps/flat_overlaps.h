@@ -14,21 +14,21 @@
 namespace hemilux {
 
 /// A triangle, whose last two corners are the same, or a convex quad.
-struct FlatPolygon {
+struct LaidPolygon {
     std::array<Vec2, 4> corner;
 
     /// Returns the projection of a polygon on two axes.
-    [[nodiscard]] static FlatPolygon of(const Polygon& polygon, const Vec3& x, const Vec3& y);
+    [[nodiscard]] static LaidPolygon of(const Polygon& polygon, const Vec3& x, const Vec3& y);
 };
 
 /// Returns whether two polygons share more than a border, or than rounding makes of one.
-[[nodiscard]] bool lie_over(const FlatPolygon& a, const FlatPolygon& b);
+[[nodiscard]] bool lie_over(const LaidPolygon& a, const LaidPolygon& b);
 
 /// Returns two polygons that lie over each other, the smaller index first.
 [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>>
-find_flat_overlap(std::span<const FlatPolygon> polygons);
+find_flat_overlap(std::span<const LaidPolygon> polygons);
 
 /// Returns marks of polygons that lie over one before them which has no mark.
-[[nodiscard]] std::vector<bool> lie_over_earlier(std::span<const FlatPolygon> polygons);
+[[nodiscard]] std::vector<bool> lie_over_earlier(std::span<const LaidPolygon> polygons);
 
 } // namespace hemilux

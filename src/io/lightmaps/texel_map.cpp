@@ -12,11 +12,12 @@ namespace hemilux {
 namespace {
 
 /// A point of a triangle by its coordinates (Hit), and its squared distance from a place.
-struct Nearest {
+struct NearestPlace {
     double u, v, distance;
 };
 
-Nearest nearest_on_edge(const std::array<Vec2, 3>& corner, std::size_t first, const Vec2& at) {
+NearestPlace nearest_place_on_edge(const std::array<Vec2, 3>& corner, std::size_t first,
+                                   const Vec2& at) {
     const std::size_t second = (first + 1) % 3;
     const Vec2 edge = corner[second] - corner[first];
     const double length = glm::dot(edge, edge);
@@ -29,15 +30,15 @@ Nearest nearest_on_edge(const std::array<Vec2, 3>& corner, std::size_t first, co
     return {weight[1], weight[2], glm::dot(gap, gap)};
 }
 
-Nearest nearest_on(const std::array<Vec2, 3>& corner, const Vec2& at) {
+NearestPlace nearest_place_on(const std::array<Vec2, 3>& corner, const Vec2& at) {
     const auto& [a, b, c] = corner;
     const double area = cross(b - a, c - a);
     const double u = cross(at - a, c - a) / area, v = cross(b - a, at - a) / area;
     if (u >= 0 && v >= 0 && u + v <= 1) // false where the triangle has no area
         return {u, v, 0};
-    Nearest nearest = nearest_on_edge(corner, 0, at);
+    NearestPlace nearest = nearest_place_on_edge(corner, 0, at);
     for (const std::size_t edge : {1u, 2u})
-        if (const Nearest other = nearest_on_edge(corner, edge, at);
+        if (const NearestPlace other = nearest_place_on_edge(corner, edge, at);
             other.distance < nearest.distance)
             nearest = other;
     return nearest;
@@ -146,7 +147,7 @@ void TexelMap::paint(std::uint32_t number, OverlapCounts& overlaps) {
         const int right = texel_at(std::ceil(columns->second + reach), size_);
         for (int x = texel_at(std::floor(columns->first - reach), size_); x < right; ++x) {
             const Vec2 at(x + .5, y + .5);
-            const auto [u, v, square] = nearest_on(corner, at);
+            const auto [u, v, square] = nearest_place_on(corner, at);
             if (square > reach * reach)
                 continue;
             Texel& texel = texels_[index(x, y)];
@@ -181,7 +182,7 @@ SurfacePoint TexelMap::point(std::size_t texel) const {
 
 SurfacePoint TexelMap::point_near(std::size_t texel, const Vec2& place) const {
     const PlacedTriangle& on = triangle(texel);
-    const auto [u, v, square] = nearest_on(on.place, place);
+    const auto [u, v, square] = nearest_place_on(on.place, place);
     return point_of(on, u, v);
 }
 

@@ -73,6 +73,15 @@ bool is_picture_file(std::string_view bytes) {
     return bytes.starts_with(png_signature) || bytes.starts_with("\xff\xd8\xff");
 }
 
+/// Returns whether the bytes begin with a header of a picture, as far as stb_image knows it.
+bool has_header(std::string_view bytes) {
+    Size size;
+    int channels = 0;
+    return bytes.size() <= std::numeric_limits<int>::max() &&
+           stbi_info_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &size.width,
+                                 &size.height, &channels) != 0;
+}
+
 } // namespace
 
 Texture decode_texture(std::string_view bytes, const std::string& place) {
@@ -102,7 +111,7 @@ Texture decode_texture(std::string_view bytes, const std::string& place) {
 
 std::shared_ptr<const Texture> TextureFiles::decode(std::string_view bytes, const std::string& key,
                                                     bool is_tga) {
-    if (!is_tga && !is_picture_file(bytes))
+    if (!is_picture_file(bytes) && !(is_tga && has_header(bytes)))
         return known_[key] = nullptr;
     if (guard_)
         guard_(bytes_ + bytes_per_texel * size_of(bytes, key).texels());

@@ -244,7 +244,7 @@ TEST_CASE("a mesh is shown once for each instance, and hidden nodes are not", "[
         R"({"attributes":{"TRANSLATION":1,"SCALE":2}}}}])"));
     CHECK(stools.scene.faces == 6);
     CHECK(area_vector(stools.scene) == Vec3(0, 0, 3 * (1 + 4 + 1)));
-    CHECK(stools.scene.vertices[4] == Vec3(15, 0, 0));
+    CHECK(stools.scene.vertices[4] == Vec3(21, 0, 0)); // the corner (1, 0, 0)
     CHECK(stools.warnings.empty());
     REQUIRE(stools.origins.size() == 3);
     CHECK(stools.origins[2].instance == 2);

@@ -31,9 +31,9 @@ double stretch_of(const Mesh& mesh, const LightmapChart& chart) {
 
 /// No two facets of a chart lie over each other in it.
 bool is_flat(const Mesh& mesh, const LightmapChart& chart) {
-    std::vector<FlatPolygon> flat;
+    std::vector<LaidPolygon> flat;
     for (const ChartSide& side : chart.sides)
-        flat.push_back(FlatPolygon::of(mesh.shape_of(side.facet), chart.along, chart.across));
+        flat.push_back(LaidPolygon::of(mesh.shape_of(side.facet), chart.along, chart.across));
     return !find_flat_overlap(flat);
 }
 
@@ -60,9 +60,9 @@ Scene torus(int rings, int segments) {
 } // namespace
 
 TEST_CASE("polygons lie over each other where they share more than a border") {
-    const FlatPolygon square{{Vec2(0, 0), {1, 0}, {1, 1}, {0, 1}}};
+    const LaidPolygon square{{Vec2(0, 0), {1, 0}, {1, 1}, {0, 1}}};
     const auto moved = [&](double x, double y) {
-        FlatPolygon polygon = square;
+        LaidPolygon polygon = square;
         for (Vec2& corner : polygon.corner)
             corner += Vec2(x, y);
         return polygon;
@@ -72,14 +72,14 @@ TEST_CASE("polygons lie over each other where they share more than a border") {
     CHECK_FALSE(lie_over(square, moved(1 - 1e-9, 0)));
     CHECK(lie_over(square, moved(.9, .9)));
     CHECK(lie_over(square, square));
-    const FlatPolygon triangle{{Vec2(.6, 1.2), {1.2, .6}, {1.2, 1.2}, {1.2, 1.2}}};
+    const LaidPolygon triangle{{Vec2(.6, 1.2), {1.2, .6}, {1.2, 1.2}, {1.2, 1.2}}};
     CHECK(lie_over(square, triangle));
-    const FlatPolygon beyond{{Vec2(.9, 1.2), {1.2, .9}, {1.2, 1.2}, {1.2, 1.2}}};
+    const LaidPolygon beyond{{Vec2(.9, 1.2), {1.2, .9}, {1.2, 1.2}, {1.2, 1.2}}};
     CHECK_FALSE(lie_over(square, beyond));
-    const std::vector<FlatPolygon> row{square, moved(.5, 0), moved(1, 0), moved(3, 0)};
+    const std::vector<LaidPolygon> row{square, moved(.5, 0), moved(1, 0), moved(3, 0)};
     CHECK(lie_over_earlier(row) == std::vector<bool>{false, true, false, false});
     CHECK(find_flat_overlap(row).has_value());
-    CHECK_FALSE(find_flat_overlap(std::vector<FlatPolygon>{square, moved(1, 0)}).has_value());
+    CHECK_FALSE(find_flat_overlap(std::vector<LaidPolygon>{square, moved(1, 0)}).has_value());
 }
 
 TEST_CASE("rectangles are packed apart from each other, and densely") {

@@ -162,7 +162,8 @@ TEST_CASE("texels have the light of their points, also where a block stands on t
             gather_lightmap(mesh, floor.model.bvh, light, floor.texels, covered,
                             {.bake = Bake::indirect, .rays = 64}, workers);
         CHECK(radiosity.image.at(5, 5).x == Approx(.5f * lightmap.image.at(5, 5).x));
-        CHECK(indirect.image.at(5, 5).x < 1e-6f); // patches reflect nothing in this light
+        // Patches reflect nothing in this light; paths find what the near block does.
+        CHECK(indirect.image.at(5, 5).x < .02f * lightmap.image.at(5, 5).x);
     }
 }
 

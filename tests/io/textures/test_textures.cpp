@@ -150,5 +150,5 @@ TEST_CASE("TGA is read by the extension of its name", "[texture]") {
     REQUIRE(texture);
     CHECK(texture->mean() == Vec3(.5, 0, .5));
     CHECK_FALSE(files.read(folder.write("a.bin", tga)));
-    CHECK_THROWS_AS(files.read(folder.write("b.tga", tga.substr(0, 9))), InputError);
+    CHECK_FALSE(files.read(folder.write("b.tga", tga.substr(0, 9))));
 }

@@ -1,10 +1,7 @@
-#include "app/running/lit_file_output.h"
+#include "app/gathering/lit_file_output.h"
 
 #include "app/rendering/view.h"
-#include "io/files/error.h"
 #include "io/gltf/lit_file.h"
-#include "io/pictures/exr.h"
-#include "io/pictures/image.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
@@ -59,12 +56,8 @@ std::vector<std::uint8_t> shown_bytes(const Image& lightmap, const Display& disp
 
 } // namespace
 
-void write_lit_file(const SolveSettings& settings, const std::string& path, const Results& results,
-                    WriteReport& report) {
-    if (!results.gathered.lightmap)
-        throw Interrupted();
-    const Image& lightmap = *results.gathered.lightmap;
-    const FileLightmap& file = results.file_lightmap;
+void write_lit_file(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
+                    const FileLightmap& file, const Image& lightmap) {
     const Binding binding = settings.file_bake.binding;
     Display display = display_of(settings.view);
     if (!settings.view.exposure)
@@ -86,15 +79,9 @@ void write_lit_file(const SolveSettings& settings, const std::string& path, cons
         for (PlacedTriangle& triangle : in_unit_square)
             for (Vec2& place : triangle.place)
                 place /= double(file.layout.size);
-        of_file.coordinates = gltf::atlas_coordinates(*file.source, results.mesh, in_unit_square);
+        of_file.coordinates = gltf::atlas_coordinates(*file.source, mesh, in_unit_square);
     }
     write_lit_glb(path, *file.source, of_file);
-    std::vector<ExrChannel> channels;
-    add_half_exr_channels(channels, lightmap);
-    report.attempt(lightmap_path(path), [&] {
-        write_exr(lightmap_path(path), lightmap.width, lightmap.height, std::move(channels),
-                  settings.from);
-    });
 }
 
 } // namespace hemilux
