@@ -22,6 +22,10 @@ if(HEMILUX_UP_TO STREQUAL "program" AND (HEMILUX_PROGRAM OR HEMILUX_TESTS OR HEM
     set(HEMILUX_PROGRAM OFF)
   endif()
 endif()
+# Pictures are compressed by zlib where it is found, else by stb, which takes longer.
+if(HEMILUX_IO)
+  find_package(ZLIB QUIET)
+endif()
 if(HEMILUX_PROGRAM)
   find_package(CLI11 QUIET)
   find_package(nlohmann_json QUIET)

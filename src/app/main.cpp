@@ -88,15 +88,16 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     Arguments program("hemilux",
                       "hemilux " HEMILUX_VERSION
                       ": radiosity by hemisphere subdivision, and the methods around it");
-    SolveSettings solve_settings;
+    SolveSettings solve_settings, bake_settings;
     CompareSettings compare_settings;
-    solve_settings.ranks = compare_settings.ranks = &ranks;
+    solve_settings.ranks = bake_settings.ranks = compare_settings.ranks = &ranks;
     DensitySettings density_settings;
     FormFactorSettings formfactor_settings;
     InfoSettings info_settings;
     program.program().add_version("-V,--version", "hemilux " HEMILUX_VERSION,
                                   "Display program version information and exit");
     const Command solve_command = add_solve_command(program, solve_settings);
+    const Command bake_command = add_bake_command(program, bake_settings);
     const Command compare_command = add_compare_command(program, compare_settings);
     const Command density_command = add_density_command(program, density_settings);
     const Command formfactors_command = add_formfactors_command(program, formfactor_settings);
@@ -125,6 +126,11 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
         solve_settings.from = provenance(solve_command, solve_settings.options.seed);
         solve_settings.given = solve_command.options_given();
         return solve(solve_settings);
+    }
+    if (bake_command.parsed()) {
+        bake_settings.from = provenance(bake_command, bake_settings.options.seed);
+        bake_settings.given = bake_command.options_given();
+        return solve(bake_settings);
     }
     if (compare_command.parsed()) {
         compare_settings.from = provenance(compare_command, compare_settings.options.seed);

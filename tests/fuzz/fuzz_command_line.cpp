@@ -17,6 +17,7 @@ class Program {
   public:
     Program() {
         add_solve_command(program_, now_.solve);
+        add_bake_command(program_, now_.bake);
         add_compare_command(program_, now_.compare);
         add_density_command(program_, now_.density);
         add_formfactors_command(program_, now_.formfactors);
@@ -34,7 +35,7 @@ class Program {
 
   private:
     struct Settings {
-        SolveSettings solve;
+        SolveSettings solve, bake;
         CompareSettings compare;
         DensitySettings density;
         FormFactorSettings formfactors;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <span>
 #include <stdexcept>
 
 namespace hemilux::test {
@@ -16,7 +17,38 @@ void expect(bool condition, const char* what) {
         throw std::runtime_error(std::string("PNG: ") + what);
 }
 
-/// Deflate (RFC 1951): stored blocks and blocks of the fixed code.
+/// A canonical Huffman code: the lengths of all symbols say what it is (RFC 1951, 3.2.2).
+class Code {
+  public:
+    explicit Code(std::span<const int> lengths) {
+        for (int length = 1; length < 16; ++length)
+            for (std::uint32_t symbol = 0; symbol < lengths.size(); ++symbol)
+                if (lengths[symbol] == length) {
+                    symbols_.push_back(symbol);
+                    ++count_.at(static_cast<std::size_t>(length));
+                }
+    }
+    /// Takes bits one by one until they are a symbol's.
+    template <class NextBit>
+    std::uint32_t take(const NextBit& next_bit) const {
+        std::uint32_t code = 0, first = 0, before = 0;
+        for (const std::uint32_t count : std::span(count_).subspan(1)) {
+            code = code << 1 | next_bit();
+            first <<= 1;
+            if (code - first < count)
+                return symbols_.at(before + code - first);
+            first += count;
+            before += count;
+        }
+        throw std::runtime_error("PNG: a code that no symbol has");
+    }
+
+  private:
+    std::array<std::uint32_t, 16> count_{}; ///< of symbols, by length
+    std::vector<std::uint32_t> symbols_;
+};
+
+/// Deflate (RFC 1951).
 class Inflate {
   public:
     explicit Inflate(const Bytes& in) : in_(in) {}
@@ -26,8 +58,8 @@ class Inflate {
         while (!last) {
             last = bits(1);
             const std::uint32_t type = bits(2);
-            expect(type < 2, "a block with a code of its own");
-            type == 0 ? stored() : fixed();
+            expect(type < 3, "the type of a block");
+            type == 0 ? stored() : type == 1 ? fixed() : dynamic();
         }
         return std::move(out_);
     }
@@ -41,19 +73,8 @@ class Inflate {
         }
         return value;
     }
-    std::uint32_t code(int count, std::uint32_t value = 0) {
-        for (int i = 0; i < count; ++i)
-            value = value << 1 | bits(1);
-        return value;
-    }
-    std::uint32_t symbol() {
-        const std::uint32_t seven = code(7);
-        if (seven < 24)
-            return 256 + seven;
-        const std::uint32_t eight = code(1, seven);
-        if (eight < 192)
-            return eight - 48;
-        return eight < 200 ? eight + 88 : code(1, eight) - 256;
+    std::uint32_t symbol(const Code& code) {
+        return code.take([&] { return bits(1); });
     }
     void stored() {
         at_ = (at_ + 7) / 8 * 8;
@@ -63,13 +84,46 @@ class Inflate {
             out_.push_back(static_cast<std::uint8_t>(bits(8)));
     }
     void fixed() {
-        for (std::uint32_t s = symbol(); s != 256; s = symbol()) {
+        std::array<int, 288> lengths{};
+        for (std::size_t s = 0; s < lengths.size(); ++s)
+            lengths[s] = s < 144 ? 8 : s < 256 ? 9 : s < 280 ? 7 : 8;
+        block(Code(lengths), Code(std::vector<int>(30, 5)));
+    }
+    /// A block that begins with its codes, whose lengths are in a code themselves.
+    void dynamic() {
+        constexpr std::array<std::size_t, 19> order{16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
+                                                    11, 4,  12, 3, 13, 2, 14, 1, 15};
+        const std::uint32_t literals = 257 + bits(5), distances = 1 + bits(5),
+                            of_lengths = 4 + bits(4);
+        std::array<int, 19> first{};
+        for (std::uint32_t k = 0; k < of_lengths; ++k)
+            first[order[k]] = static_cast<int>(bits(3));
+        const Code code_of_lengths(first);
+        std::vector<int> lengths;
+        while (lengths.size() < literals + distances) {
+            const std::uint32_t s = symbol(code_of_lengths);
+            if (s < 16) {
+                lengths.push_back(static_cast<int>(s));
+                continue;
+            }
+            expect(s > 16 || !lengths.empty(), "a repeated length without one before");
+            const int value = s == 16 ? lengths.back() : 0;
+            const std::uint32_t times = s == 16   ? 3 + bits(2)
+                                        : s == 17 ? 3 + bits(3)
+                                                  : 11 + bits(7);
+            lengths.insert(lengths.end(), times, value);
+        }
+        const std::span all(lengths);
+        block(Code(all.first(literals)), Code(all.subspan(literals)));
+    }
+    void block(const Code& literals, const Code& distances) {
+        for (std::uint32_t s = symbol(literals); s != 256; s = symbol(literals)) {
             if (s < 256) {
                 out_.push_back(static_cast<std::uint8_t>(s));
                 continue;
             }
             const std::uint32_t length = length_of(s - 257);
-            const std::uint32_t distance = distance_of(code(5));
+            const std::uint32_t distance = distance_of(symbol(distances));
             expect(distance <= out_.size(), "a distance");
             for (std::uint32_t i = 0; i < length; ++i)
                 out_.push_back(out_[out_.size() - distance]);

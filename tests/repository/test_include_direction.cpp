@@ -61,12 +61,13 @@ const std::vector<std::string> rooms{
     "io/textures",
     "io/polygons",
     "io/scene_files",
-    "io/gltf/document",
-    "io/gltf",
     "io/results",
     "io/pictures",
     "io/rendering",
     "io/meshes",
+    "io/lightmaps",
+    "io/gltf/document",
+    "io/gltf",
     "io/drawings",
     "app/settings",
     "app/memory",
@@ -144,7 +145,7 @@ bool may_include_system(const std::string& file, const std::string& header) {
     if (begins("nlohmann/")) // these take long to compile: few files include them
         return file == "io/results/statistics.cpp" || file == "io/results/scene_info_json.cpp" ||
                file == "io/meshes/glb.cpp" || file == "io/gltf/document/json_value.cpp" ||
-               file == "app/report/run_data.cpp";
+               file == "io/gltf/lit_file.cpp" || file == "app/report/run_data.cpp";
     if (begins("CLI/"))
         return file == "app/command_line/arguments.cpp";
     if (header == "mpi.h")

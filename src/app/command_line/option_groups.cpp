@@ -198,8 +198,7 @@ void add_camera_options(Command command, ViewSettings& view) {
         [&view](const PixelSize& size) { view.size = size; });
 }
 
-void add_view_options(Command command, ViewSettings& view) {
-    add_camera_options(command, view);
+void add_exposure_options(Command command, ViewSettings& view) {
     add_parsed(
         command, "--exposure", "X|STOPSev",
         "factor on the light of .png pictures; as +1.5ev in stops from the automatic one "
@@ -213,6 +212,11 @@ void add_view_options(Command command, ViewSettings& view) {
     add_choice(command, "--tone", view.tone, {{Tone::neutral, "neutral"}, {Tone::srgb, "srgb"}},
                "how .png pictures show light above 0.8 of the screen's: neutral: compressed, with "
                "its hue; srgb: cut at 1 in each channel [neutral]");
+}
+
+void add_view_options(Command command, ViewSettings& view) {
+    add_camera_options(command, view);
+    add_exposure_options(command, view);
 }
 
 void add_report_option(Command command, std::string& report, const char* contents) {

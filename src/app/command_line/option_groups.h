@@ -29,7 +29,9 @@ void add_own_options(Command command, std::span<const Method* const> methods,
 void add_random_options(Command command, SolveOptions& options);
 /// Adds --camera and --size.
 void add_camera_options(Command command, ViewSettings& view);
-/// Adds the same and --exposure.
+/// Adds --exposure and --tone.
+void add_exposure_options(Command command, ViewSettings& view);
+/// Adds all of these.
 void add_view_options(Command command, ViewSettings& view);
 /// Adds --report, a page with these contents.
 void add_report_option(Command command, std::string& report, const char* contents);

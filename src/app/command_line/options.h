@@ -8,6 +8,7 @@ namespace hemilux {
 
 /// Each of these adds a subcommand that fills the settings while the arguments are parsed.
 Command add_solve_command(Arguments& program, SolveSettings& settings);
+Command add_bake_command(Arguments& program, SolveSettings& settings);
 Command add_compare_command(Arguments& program, CompareSettings& settings);
 Command add_density_command(Arguments& program, DensitySettings& settings);
 Command add_formfactors_command(Arguments& program, FormFactorSettings& settings);

@@ -16,6 +16,19 @@
 
 namespace hemilux {
 
+void add_stop_options(Command command, StopRule& stop) {
+    add_whole<std::uint32_t>(command, "--steps", stop.steps, 1,
+                             std::numeric_limits<std::uint32_t>::max(), "after N steps");
+    add_seconds(command, "--time", stop.seconds, positive,
+                "after a time of solving; 2m and 1h are minutes and hours");
+    add_error(command, "--error", stop.error,
+              "at an estimated relative error, e.g. 1% or 0.01; for pictures and --points at an "
+              "error of gathered light that is surely below this [0.02 for these]");
+    add_whole<std::uint64_t>(
+        command, "--max-rays", stop.rays, 1, std::numeric_limits<std::uint64_t>::max(),
+        "after N rays, even if the error is not reached [1e8 and 1000 a patch]");
+}
+
 namespace {
 
 void add_plain_option(Command command, bool& plain) {
@@ -57,19 +70,6 @@ void add_method_option(Command command, const Method*& method) {
     });
 }
 
-void add_stop_options(Command command, StopRule& stop) {
-    add_whole<std::uint32_t>(command, "--steps", stop.steps, 1,
-                             std::numeric_limits<std::uint32_t>::max(), "after N steps");
-    add_seconds(command, "--time", stop.seconds, positive,
-                "after a time of solving; 2m and 1h are minutes and hours");
-    add_error(command, "--error", stop.error,
-              "at an estimated relative error, e.g. 1% or 0.01; for pictures and --points at an "
-              "error of gathered light that is surely below this [0.02 for these]");
-    add_whole<std::uint64_t>(
-        command, "--max-rays", stop.rays, 1, std::numeric_limits<std::uint64_t>::max(),
-        "after N rays, even if the error is not reached [1e8 and 1000 a patch]");
-}
-
 void add_error_accuracy_option(Command command, double& accuracy) {
     add_error(
         command, "--error-accuracy", accuracy,
@@ -105,8 +105,8 @@ void add_output_options(Command command, SolveSettings& settings) {
         "before, for viewers that light by lamps, too [radiosity]");
     add_whole<int>(
         command, "--lightmap", settings.lightmap, 16, SolveSettings::max_lightmap,
-        "beside .glb files the same light as a picture NAME.lightmap.exr of N x N texels, "
-        "linear floats, for the texture coordinates TEXCOORD_1");
+        "beside .glb files the light as a picture NAME.lightmap.exr of N x N texels, gathered "
+        "unless --no-gather, linear floats, for the texture coordinates TEXCOORD_1");
     add_choice(command, "--ply-colours", settings.ply_colours,
                {{PlyColours::linear, "linear"}, {PlyColours::shown, "shown"}},
                "colours of .ply files: linear: the light itself as float; shown: 8 bits as "

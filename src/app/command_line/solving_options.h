@@ -13,6 +13,8 @@ inline constexpr const char* comparison_group = "Comparison";
 
 /// Adds --rays, --depth and others that say how to solve, but for the method itself.
 void add_method_options(Command command, SolveOptions& options);
+/// Adds --steps, --time, --error and --max-rays.
+void add_stop_options(Command command, StopRule& stop);
 /// Adds --detail.
 void add_detail_option(Command command, std::vector<std::string>& detail);
 

@@ -6,6 +6,7 @@
 #include "app/division/default_division.h"
 #include "app/division/whole_error.h"
 #include "app/gathering/gathered_light.h"
+#include "app/gathering/lightmap_layout.h"
 #include "app/gathering/point_table.h"
 #include "app/gathering/shown_camera.h"
 #include "app/gathering/target_light.h"
@@ -28,6 +29,7 @@
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
 #include "app/terminal/unused_options.h"
+#include "io/lightmaps/charts.h"
 #include "io/results/points.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/needs/find_needs.h"
@@ -35,7 +37,9 @@
 #include "radiosity/engine/solving/shared_stop.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <span>
+#include <system_error>
 
 namespace hemilux {
 
@@ -48,6 +52,7 @@ struct Loaded {
     std::vector<NamedPoint> points;          ///< points of --points
     std::vector<TargetPoints> target_points; ///< points of --for
     LoadedMesh scene;
+    FileLightmap file_lightmap; ///< of `bake`
 };
 
 /// What a solver refers to; it stays where it is while one lives.
@@ -87,6 +92,15 @@ bool has_pictures(const SolveSettings& settings) {
            !settings.error_map.empty();
 }
 
+/// Returns the bytes of the scene's own file while it is written again: its buffers, their copy and
+/// its JSON.
+double bytes_of_own_file(const SolveSettings& settings) {
+    constexpr double copies = 4;
+    std::error_code error;
+    const auto size = std::filesystem::file_size(settings.scene.path, error);
+    return settings.file_bake.asked && !error ? copies * static_cast<double>(size) : 0;
+}
+
 /// Reads the files of the run; checks its options first, and then what they are for this scene.
 Loaded load(SolveSettings settings) {
     const RunFiles files = check_files(settings);
@@ -104,7 +118,7 @@ Loaded load(SolveSettings settings) {
     std::vector<TargetPoints> target_points = points_of_target(settings.target);
     LoadedMesh scene = load_mesh(
         settings.scene, files, settings.options, methods, settings.verbosity, [&](double patches) {
-            return bytes_of_results(settings, patches) +
+            return bytes_of_own_file(settings) + bytes_of_results(settings, patches) +
                    bytes_of_points(points.size(), settings.rays_of_gather());
         });
     const Mesh& mesh = scene.mesh;
@@ -117,8 +131,11 @@ Loaded load(SolveSettings settings) {
     check_lightmap(settings, mesh);
     check_own_options(settings.options, methods, mesh.patches().size());
     check_plain(settings, mesh.patches().size());
-    return {std::move(settings), std::move(resumed), std::move(points), std::move(target_points),
-            std::move(scene)};
+    FileLightmap file_lightmap;
+    if (settings.file_bake.asked)
+        file_lightmap = lightmap_of_file(settings, mesh, scene.origins);
+    return {std::move(settings),      std::move(resumed), std::move(points),
+            std::move(target_points), std::move(scene),   std::move(file_lightmap)};
 }
 
 /// Finds what belongs to the patches as they are then.
@@ -266,6 +283,19 @@ LitScene lit_scene(const Problem& problem, const Solution& solution) {
             problem.settings().options.threads};
 }
 
+/// Returns where surfaces lie in the lightmap, if one is gathered.
+LightmapLayout lightmap_layout(const Problem& problem) {
+    const SolveSettings& settings = problem.settings();
+    if (settings.file_bake.asked || !gathers_lightmap(settings))
+        return problem.loaded.file_lightmap.layout;
+    try {
+        const int size = *settings.lightmap;
+        return {placed_triangles(problem.mesh(), find_charts(problem.mesh(), size)), size, gutter};
+    } catch (const LightmapTooSmall&) { // which the output that fails reports
+        return {};
+    }
+}
+
 /// Gathers light where outputs show that; chooses the camera of pictures.
 GatheredLight gather(const Problem& problem, Run& done, const Solution& solution,
                      Statistics& statistics) {
@@ -277,7 +307,8 @@ GatheredLight gather(const Problem& problem, Run& done, const Solution& solution
     if (has_pictures(settings) && !done.camera)
         done.camera = shown_camera_of(settings.view, lit, settings.verbosity);
     return gather_light(settings, lit, solution, problem.loaded.points,
-                        done.camera.value_or(Camera()), problem.monitor, statistics);
+                        done.camera.value_or(Camera()), lightmap_layout(problem), problem.monitor,
+                        statistics);
 }
 
 /// Writes the outputs; returns the exit code.
@@ -291,12 +322,12 @@ int write(const Problem& problem, const Run& done, const Solution& solution, Sta
     const OnThisRank works_alone(problem.monitor.interrupted);
     const bool interrupted = !done.completed && !done.fault;
     settings.view.camera = done.camera;
-    const int code =
-        finish(settings,
-               {problem.mesh(), problem.tracer(), solution, settings.options, statistics, done.rows,
-                loaded.points, gathered, loaded.scene.warnings, problem.monitor},
-               done.written, reference, done.notes, interrupted, started,
-               loaded.resumed ? loaded.resumed->seconds : 0);
+    const int code = finish(settings,
+                            {problem.mesh(), problem.tracer(), solution, settings.options,
+                             statistics, done.rows, loaded.points, gathered, loaded.file_lightmap,
+                             loaded.scene.warnings, problem.monitor},
+                            done.written, reference, done.notes, interrupted, started,
+                            loaded.resumed ? loaded.resumed->seconds : 0);
     if (interrupted && !settings.ranks->are_several())
         end_at_once(code);
     if (!done.fault || code != exit_done)

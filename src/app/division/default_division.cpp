@@ -12,8 +12,9 @@ namespace {
 constexpr std::uint64_t bytes_of_patch = 16'384;
 
 bool writes_mesh(const SolveSettings& settings) {
-    return std::ranges::any_of(settings.outputs, [](const Output& output) {
-        return output.kind == OutputKind::ply || output.kind == OutputKind::glb ||
+    return std::ranges::any_of(settings.outputs, [&](const Output& output) {
+        return output.kind == OutputKind::ply ||
+               (output.kind == OutputKind::glb && !settings.file_bake.asked) ||
                output.kind == OutputKind::vtu;
     });
 }

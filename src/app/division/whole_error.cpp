@@ -57,7 +57,9 @@ double sampling_of_gathered(const SolveSettings& settings) {
 bool gives_gathered_light(const SolveSettings& settings) {
     const bool is_of_patches =
         !settings.error_map.empty() || !settings.report.empty() ||
-        !std::ranges::all_of(settings.outputs, [](const Output& output) {
+        !std::ranges::all_of(settings.outputs, [&](const Output& output) {
+            if (output.kind == OutputKind::glb && settings.file_bake.asked)
+                return true;
             return is_picture(output.kind) && output.kind != OutputKind::exr; // layers of patches
         });
     const bool pictures = !settings.outputs.empty() && settings.gather_pictures;

@@ -1,8 +1,12 @@
 #include "app/gathering/gathered_light.h"
 
 #include "app/division/whole_error.h"
+#include "app/settings/text.h"
+#include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
 #include "io/files/error.h"
+#include "io/lightmaps/covered_texels.h"
+#include "io/lightmaps/lightmap_gather.h"
 #include "io/rendering/picture_error.h"
 #include "io/rendering/picture_parts.h"
 #include "io/rendering/render.h"
@@ -71,6 +75,7 @@ class Gathering {
 
     void find_points(std::span<const NamedPoint> points);
     void find_picture(const Camera& camera);
+    void find_lightmap(const LightmapLayout& layout);
     /// Returns what was found, and enters the errors.
     [[nodiscard]] GatheredLight finish();
 
@@ -187,6 +192,58 @@ void Gathering::find_picture(const Camera& camera) {
     add(errors);
 }
 
+/// Where its own error is too large, it is gathered again with four times as many rays, as pictures
+/// are. A signal leaves the light of patches in it.
+void Gathering::find_lightmap(const LightmapLayout& layout) {
+    constexpr unsigned max_gather = 256;
+    constexpr double helps = .75;
+    const Mesh& mesh = scene_.mesh;
+    const SurfaceLight& light = light_.cache->light();
+    std::vector<PlacedTriangle> triangles = layout.triangles;
+    show_brighter_sides(mesh, solution_, triangles);
+    const TexelMap texels(mesh, std::move(triangles), layout.size);
+    LightmapOptions options{
+        .bake = settings_.bake, .rays = settings_.rays_of_gather(), .check = [this] {
+            if (time_.is_over())
+                throw Interrupted();
+        }};
+    GatheredLightmap found;
+    try {
+        const std::vector<bool> covered =
+            find_covered(mesh, scene_.tracer, texels, options.check, workers_);
+        Errors errors{
+            learn(lightmap_parts(mesh, texels, covered, settings_.bake, seed_of(10)), seed_of(11))};
+        for (std::uint64_t attempt = 0;; ++attempt, options.rays *= 4) {
+            const Stopwatch watch;
+            found = gather_lightmap(mesh, scene_.tracer, light, texels, covered, options, workers_);
+            statistics_.seconds_gather += watch.seconds();
+            const Stopwatch judging;
+            const PictureError own =
+                lightmap_error(mesh, scene_.tracer, light, texels, found, settings_.bake,
+                               hash_words({seed_of(12), attempt}), workers_);
+            statistics_.rays_learn += own.rays;
+            statistics_.seconds_learn += judging.seconds();
+            const double before = attempt == 0 ? own.error / helps : errors.noise;
+            errors.noise = own.error;
+            errors.noise_uncertainty = own.uncertainty;
+            log_line(settings_.verbosity, Verbosity::verbose,
+                     "lightmap by " + counted(options.rays, "ray", "rays") +
+                         " a texel: its own error is " + percent(own.error) +
+                         ", that of the light which it reads " + percent(errors.read.error));
+            if (settings_.gather || errors.whole() <= error_ || 4 * options.rays > max_gather ||
+                own.error > helps * before || errors.read.bound > error_ || monitor_.interrupted)
+                break;
+        }
+        add(errors);
+    } catch (const Interrupted&) {
+        log_line(settings_.verbosity, Verbosity::quiet,
+                 "interrupted; the lightmap shows the light of the patches");
+        found = lightmap_of_patches(mesh, light, texels, settings_.bake);
+    }
+    fill_texels(found, texels, layout.margin);
+    light_.lightmap = std::move(found.image);
+}
+
 GatheredLight Gathering::finish() {
     if (errors_ && gives_gathered_light(settings_)) {
         statistics_.estimated_error = errors_->whole();
@@ -204,18 +261,28 @@ bool has_gathered_picture(const SolveSettings& settings) {
 
 } // namespace
 
+bool gathers_lightmap(const SolveSettings& settings) {
+    return settings.lightmap && settings.gather_pictures &&
+           std::ranges::find(settings.outputs, OutputKind::glb, &Output::kind) !=
+               settings.outputs.end();
+}
+
 bool gathers(const SolveSettings& settings) {
-    return !settings.points.output.empty() || has_gathered_picture(settings);
+    return !settings.points.output.empty() || has_gathered_picture(settings) ||
+           gathers_lightmap(settings);
 }
 
 GatheredLight gather_light(const SolveSettings& settings, const LitScene& scene,
                            const Solution& solution, std::span<const NamedPoint> points,
-                           const Camera& camera, Monitor& monitor, Statistics& statistics) {
+                           const Camera& camera, const LightmapLayout& lightmap, Monitor& monitor,
+                           Statistics& statistics) {
     if (!gathers(settings))
         return {};
     Gathering gathering(settings, scene, solution, monitor, statistics);
     if (!points.empty())
         gathering.find_points(points);
+    if (!lightmap.triangles.empty())
+        gathering.find_lightmap(lightmap);
     try {
         if (has_gathered_picture(settings))
             gathering.find_picture(camera);

@@ -1,7 +1,8 @@
 #pragma once
-// The light of outputs for which it is gathered: pictures and points. It is learned until its error
-// is as asked for (light_cache.h), then gathered.
+// The light of outputs for which it is gathered: pictures, lightmaps and points. It is learned
+// until its error is as asked for (light_cache.h), then gathered.
 
+#include "app/gathering/lightmap_layout.h"
 #include "app/rendering/view.h"
 #include "app/settings/settings.h"
 #include "io/pictures/camera.h"
@@ -23,18 +24,24 @@ struct GatheredLight {
     std::unique_ptr<LightCache> cache; ///< empty: nothing is gathered
     std::vector<Sensor> sensors;       ///< by point of --points
     LightAtPoints points;
-    std::optional<Image> picture; ///< empty: none was asked for, or a signal ended it
+    std::optional<Image> picture;  ///< empty: none was asked for, or a signal ended it
+    std::optional<Image> lightmap; ///< empty: none was asked for
 };
 
 /// Returns whether any output shows gathered light.
 [[nodiscard]] bool gathers(const SolveSettings& settings);
 
-/// Learns the light, and gathers that of points. `camera` is that of pictures. Everything that is
+/// Returns whether lightmaps show gathered light.
+[[nodiscard]] bool gathers_lightmap(const SolveSettings& settings);
+
+/// Learns the light, and gathers that of points. `camera` is that of pictures, `lightmap` where
+/// surfaces lie in one; it has none where it is empty. Everything that is
 /// referred to must outlive the result. Enters the error into the statistics where only gathered
 /// light is given out.
 [[nodiscard]] GatheredLight gather_light(const SolveSettings& settings, const LitScene& scene,
                                          const Solution& solution,
                                          std::span<const NamedPoint> points, const Camera& camera,
-                                         Monitor& monitor, Statistics& statistics);
+                                         const LightmapLayout& lightmap, Monitor& monitor,
+                                         Statistics& statistics);
 
 } // namespace hemilux

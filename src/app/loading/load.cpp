@@ -151,10 +151,10 @@ ViewSettings view_of(const ViewSettings& asked, const FileView& file, Verbosity 
         view.up = file.up;
     if (view.camera || !view.uses_camera_of_scene || !file.camera)
         return view;
-    view.camera = file.camera;
+    view.camera = as_printed(*file.camera);
     log_line(verbosity, Verbosity::normal,
              "pictures are seen by camera '" + file.camera_name + "' of the scene: " +
-                 camera_text(*file.camera) + "; --camera auto chooses another");
+                 camera_text(*view.camera) + "; --camera auto chooses another");
     return view;
 }
 
@@ -219,7 +219,8 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                       std::move(read.face_lines),
                       view_of_file(settings.path, read),
                       std::move(read.warnings),
-                      need.all()};
+                      need.all(),
+                      std::move(read.origins)};
     if (!loaded.mesh.all_layers_are_offset())
         warn(loaded,
              settings.path +

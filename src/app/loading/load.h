@@ -44,8 +44,9 @@ struct LoadedMesh {
     double seconds_read, seconds_sides;
     std::vector<std::uint32_t> face_lines; ///< ReadResult
     FileView view;
-    std::vector<std::string> warnings; ///< warnings that were logged
-    double bytes_needed = 0;           ///< MemoryNeed::all()
+    std::vector<std::string> warnings;         ///< warnings that were logged
+    double bytes_needed = 0;                   ///< MemoryNeed::all()
+    std::vector<PrimitiveOrigin> origins = {}; ///< ReadResult
 };
 
 /// Does all of this and reports what there is to report. Throws InputError for what no method can

@@ -187,7 +187,8 @@ double bytes_of_picture(PixelSize size, bool gathered) {
 }
 
 double bytes_of_lightmap(int size) {
-    constexpr double bytes_per_texel = 16 + 12 + 24; // light and distance, channels, file
+    // What a texel shows, its share of a point that gathers, its light; then channels and files.
+    constexpr double bytes_per_texel = 16 + 64 + 16 + 36;
     return bytes_per_texel * size * size;
 }
 

@@ -7,7 +7,9 @@
 #include "io/pictures/exr.h"
 #include "radiosity/paper/scene/mesh.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace hemilux {
 
@@ -22,24 +24,58 @@ void check_camera(const ViewSettings& view, const Mesh& mesh, const std::string&
                      "distance from the origin these two are the same point");
 }
 
+namespace {
+
+/// Returns a coordinate of a camera that looks so far, with six digits of that distance.
+std::string place_text(double coordinate, double far) {
+    constexpr int digits = 6, most = 17;
+    const int decimals =
+        std::clamp(digits - static_cast<int>(std::floor(std::log10(far))), 0, most);
+    std::string text = formatted("%.*f", decimals, coordinate);
+    if (decimals > 0) {
+        text.erase(text.find_last_not_of('0') + 1);
+        if (text.ends_with('.'))
+            text.pop_back();
+    }
+    return text == "-0" ? "0" : text;
+}
+
+std::string angle_text(double degrees) { return formatted("%.6g", degrees); }
+
+} // namespace
+
 std::string camera_text(const Camera& camera) {
-    auto [eye, target, up, fov] = camera;
+    const auto& [eye, target, up, fov] = camera;
     const double far = glm::distance(eye, target);
-    for (Vec3* point : {&eye, &target})
+    std::string text = "--camera ";
+    for (const Vec3& point : {eye, target})
         for (int axis = 0; axis < 3; ++axis)
-            if (std::abs((*point)[axis]) < 1e-9 * far) // 0, but for rounding
-                (*point)[axis] = 0;
-    const std::string text = formatted("--camera %g,%g,%g,%g,%g,%g,%g", eye.x, eye.y, eye.z,
-                                       target.x, target.y, target.z, fov);
+            text += place_text(point[axis], far) + ",";
+    text += angle_text(fov);
     return up == Camera().up ? text : text + formatted(",%g,%g,%g", up.x, up.y, up.z);
+}
+
+Camera as_printed(Camera camera) {
+    const double far = glm::distance(camera.eye, camera.target);
+    if (!(far > 0) || !std::isfinite(far))
+        return camera;
+    for (Vec3* const point : {&camera.eye, &camera.target})
+        for (int axis = 0; axis < 3; ++axis)
+            (*point)[axis] = std::strtod(place_text((*point)[axis], far).c_str(), nullptr);
+    if (camera.up != Camera().up)
+        for (int axis = 0; axis < 3; ++axis)
+            camera.up[axis] = std::strtod(formatted("%g", camera.up[axis]).c_str(), nullptr);
+    camera.vertical_fov_degrees =
+        std::strtod(angle_text(camera.vertical_fov_degrees).c_str(), nullptr);
+    return camera;
 }
 
 Camera camera_of(const ViewSettings& view, const LitScene& scene) {
     const auto [width, height] = view.size;
-    return view.camera
-               ? *view.camera
-               : automatic_camera(scene.mesh, scene.tracer, scene.radiosity,
-                                  static_cast<double>(width) / height, view.up, scene.threads);
+    return view.camera ? *view.camera
+                       : as_printed(automatic_camera(scene.mesh, scene.tracer, scene.radiosity,
+                                                     static_cast<double>(width) / height, view.up,
+                                                     scene.threads));
 }
 
 bool PictureTime::is_over() const {

@@ -17,8 +17,11 @@ namespace hemilux {
 /// and InputError where that camera is of the file of the scene.
 void check_camera(const ViewSettings& view, const Mesh& mesh, const std::string& scene);
 
-/// Returns the option that asks for this camera: "--camera 1,2,3,4,5,6,45".
+/// Returns the option that asks for this camera: "--camera 1,2,3,4,5,6,45". Places have six digits
+/// of the distance at which it looks, wherever the origin is.
 [[nodiscard]] std::string camera_text(const Camera& camera);
+/// Returns the camera that this option gives, so that it may be copied.
+[[nodiscard]] Camera as_printed(Camera camera);
 
 /// The time that pictures may still take once the user has asked the program to end: until two
 /// seconds after this was made, so that small ones are written. It refers to the argument.

@@ -29,8 +29,8 @@ void limit_to_most(std::vector<double>& errors) {
 } // namespace
 
 void write_error_map(const std::string& path, const ViewSettings& view, const Results& results) {
-    const auto& [mesh, tracer, solution, options, statistics, steps, points, gathered, warnings,
-                 monitor] = results;
+    const auto& [mesh, tracer, solution, options, statistics, steps, points, gathered,
+                 file_lightmap, warnings, monitor] = results;
     const PictureTime time(monitor.interrupted.own().wished);
     const Camera camera = camera_of(view, results.lit());
     std::vector<double> errors =

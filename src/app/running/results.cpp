@@ -1,5 +1,6 @@
 #include "app/running/results.h"
 
+#include "app/gathering/lit_file_output.h"
 #include "app/gathering/point_table.h"
 #include "app/gathering/shown_camera.h"
 #include "app/loading/load.h"
@@ -10,9 +11,9 @@
 #include "app/terminal/log.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
+#include "io/lightmaps/lightmap.h"
 #include "io/meshes/glb.h"
 #include "io/meshes/indirect_light.h"
-#include "io/meshes/lightmap.h"
 #include "io/meshes/vtu.h"
 #include "io/pictures/automatic_camera.h"
 #include "io/pictures/exr.h"
@@ -117,7 +118,7 @@ int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
 /// other.
 void write_lightmapped(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
                        const CornerClasses& classes, VertexLight light, int up,
-                       WriteReport& report) {
+                       const std::optional<Image>& gathered, WriteReport& report) {
     const int size = *settings.lightmap;
     const std::vector<LightmapChart> charts = find_charts(mesh, size); // which fit: check_lightmap
     const ChartCorners corners = divide_by_charts(mesh, classes, charts);
@@ -130,7 +131,8 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path, c
     light.of_class = std::move(of_class);
     report.attempt(lightmap_path(path), [&] {
         std::vector<ExrChannel> channels;
-        add_exr_channels(channels, "", lightmap(charts, corners, light.of_class, size));
+        add_half_exr_channels(channels, gathered ? *gathered
+                                                 : lightmap(charts, corners, light.of_class, size));
         write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
     });
     write_glb(path, mesh, corners.classes, light, settings.from, up, texcoords);
@@ -148,9 +150,25 @@ void write_mesh(const SolveSettings& settings, const Output& output, const Resul
         return write_ply(output.path, results.mesh, classes, light, settings.ply_colours);
     const int up = up_axis(settings.view.up, results.mesh, settings.verbosity);
     if (settings.lightmap)
-        write_lightmapped(settings, output.path, results.mesh, classes, light, up, report);
+        write_lightmapped(settings, output.path, results.mesh, classes, light, up,
+                          results.gathered.lightmap, report);
     else
         write_glb(output.path, results.mesh, classes, light, settings.from, up);
+}
+
+/// Writes the output of `bake`, and its lightmap as an attempt of its own.
+void write_own_file(const SolveSettings& settings, const std::string& path, const Results& results,
+                    WriteReport& report) {
+    if (!results.gathered.lightmap)
+        throw Interrupted();
+    const Image& light = *results.gathered.lightmap;
+    write_lit_file(settings, path, results.mesh, results.file_lightmap, light);
+    report.attempt(lightmap_path(path), [&] {
+        std::vector<ExrChannel> channels;
+        add_half_exr_channels(channels, light);
+        write_exr(lightmap_path(path), light.width, light.height, std::move(channels),
+                  settings.from);
+    });
 }
 
 void write_output(const SolveSettings& settings, const Output& output, const Results& results,
@@ -163,6 +181,8 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
         return picture.write(output, settings.from, settings.verbosity);
     case OutputKind::ply:
     case OutputKind::glb:
+        if (settings.file_bake.asked)
+            return write_own_file(settings, output.path, results, report);
         return write_mesh(settings, output, results, classes.get(), report);
     case OutputKind::vtu:
         return write_vtu(output.path, results.mesh, classes.get(), solution, settings.from);
@@ -176,8 +196,8 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
 }
 
 void write_report(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, options, statistics, steps, points, gathered, warnings,
-                 monitor] = results;
+    const auto& [mesh, tracer, solution, options, statistics, steps, points, gathered,
+                 file_lightmap, warnings, monitor] = results;
     ReportContent content{mesh,
                           solution,
                           statistics,

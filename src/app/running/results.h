@@ -27,6 +27,7 @@ struct Results {
     std::span<const StepRow> steps;
     std::span<const NamedPoint> points;
     const GatheredLight& gathered;
+    const FileLightmap& file_lightmap;     ///< of `bake`
     std::span<const std::string> warnings; ///< of reading and of the run
     Monitor& monitor; ///< once it is interrupted, densities and what takes long are left out
 

@@ -1,12 +1,14 @@
 #include "app/running/run_files.h"
 
 #include "app/settings/exit_code.h"
+#include "app/settings/extension.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
-#include "io/meshes/lightmap.h"
+#include "io/lightmaps/lightmap.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +25,7 @@ std::vector<std::string> lightmap_paths(const SolveSettings& settings) {
     for (const Output& output : settings.outputs)
         if (settings.lightmap && output.kind == OutputKind::glb) {
             if (output.path == standard_output)
-                throw UsageError("--lightmap takes its name from the .glb file; -o -.glb has none");
+                throw UsageError("a lightmap takes its name from the .glb file; -o -.glb has none");
             paths.push_back(lightmap_path(output.path));
         }
     if (settings.lightmap && paths.empty())
@@ -94,6 +96,19 @@ void check_readable(const SolveSettings& settings) {
                          "' is a pipe, which can be read once");
 }
 
+/// `bake` reads its scene twice, and writes it as what it is.
+void check_bake(const SolveSettings& settings) {
+    if (!settings.file_bake.asked)
+        return;
+    const std::string extension = extension_of(settings.scene.path);
+    if (extension != ".gltf" && extension != ".glb")
+        throw UsageError(
+            "bake is for glTF files (.gltf, .glb); for '" + settings.scene.path +
+            "' hemilux solve -o lit.glb --lightmap 1024 writes a mesh with a lightmap");
+    if (std::filesystem::exists(settings.scene.path))
+        check_input(settings.scene.path, InputKind::regular);
+}
+
 } // namespace
 
 void check_lightmap(const SolveSettings& settings, const Mesh& mesh) {
@@ -108,6 +123,7 @@ void check_lightmap(const SolveSettings& settings, const Mesh& mesh) {
 }
 
 RunFiles check_files(const SolveSettings& settings) {
+    check_bake(settings);
     std::vector<RoleAndPath> written = results_of(settings);
     check_points(settings);
     if (written.empty())

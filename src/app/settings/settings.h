@@ -8,6 +8,7 @@
 #include "app/settings/overrides.h"
 #include "io/files/outside_files.h"
 #include "io/files/provenance.h"
+#include "io/gltf/binding.h"
 #include "io/meshes/ply.h"
 #include "io/pictures/camera.h"
 #include "io/results/statistics.h"
@@ -85,6 +86,17 @@ struct CheckpointSettings {
     static constexpr double default_every = 60;
 };
 
+/// The settings of `bake`, which writes the scene's own file with its light.
+struct FileBakeSettings {
+    bool asked = false;             ///< by `bake`; `solve` writes the divided mesh
+    std::optional<std::size_t> set; ///< --lightmap-uv: the set of the file
+    bool new_set = false;           ///< --lightmap-uv new: an atlas of our own in any case
+    std::optional<double> texels_per_metre;
+    int margin = 2; ///< texels around charts that have their light too
+    Binding binding = Binding::lightmap;
+    static constexpr int default_size = 1024, max_margin = 64;
+};
+
 struct SolveSettings {
     SceneSettings scene;
     const Method* method = nullptr;
@@ -99,8 +111,9 @@ struct SolveSettings {
     double error_accuracy = 0;
     ViewSettings view;
     std::vector<Output> outputs;
-    Bake bake = Bake::radiosity;                 ///< what mesh files hold
-    std::optional<int> lightmap;                 ///< texels along a side, beside .glb files
+    Bake bake = Bake::radiosity; ///< what mesh files hold
+    std::optional<int> lightmap; ///< texels along a side, beside .glb files
+    FileBakeSettings file_bake;
     PlyColours ply_colours = PlyColours::linear; ///< what .ply files hold
     Provenance from;                             ///< provenance of the files
     std::vector<GivenOption> given;              ///< options and their values

@@ -142,6 +142,11 @@ double Elements::at(std::size_t element, std::size_t component) const {
                  : 0;
 }
 
+std::string Elements::bytes_at(std::size_t element) const {
+    const char* const place = place_of(element);
+    return place ? std::string(place, element_bytes_) : std::string(element_bytes_, '\0');
+}
+
 std::uint32_t Elements::whole_at(std::size_t element) const {
     const char* const place = place_of(element);
     return place ? static_cast<std::uint32_t>(number_at(place, accessor_.component, false)) : 0;

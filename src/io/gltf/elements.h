@@ -24,6 +24,9 @@ class Buffers {
     /// than the file says.
     [[nodiscard]] std::string_view view(std::size_t view);
 
+    /// Returns all bytes of a buffer. Throws in the same way.
+    [[nodiscard]] std::string_view content(std::size_t buffer);
+
     [[nodiscard]] const Document& document() const { return document_; }
     [[nodiscard]] const std::string& path() const { return path_; }
     /// Is called before a file is read that the document names at this place.
@@ -34,7 +37,6 @@ class Buffers {
     [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
 
   private:
-    [[nodiscard]] std::string_view content(std::size_t buffer);
     [[nodiscard]] std::string read(std::size_t buffer, const std::string& uri);
 
     const Document& document_;
@@ -58,6 +60,9 @@ class Elements {
     [[nodiscard]] double at(std::size_t element, std::size_t component) const;
     /// Returns an element of an accessor of whole numbers.
     [[nodiscard]] std::uint32_t whole_at(std::size_t element) const;
+    /// Returns the bytes of an element, as the file has them.
+    [[nodiscard]] std::string bytes_at(std::size_t element) const;
+    [[nodiscard]] std::size_t element_bytes() const { return element_bytes_; }
     /// Throws InputError unless the accessor has this type and one of these components.
     void check(const char* type, std::initializer_list<Component> components) const;
     [[noreturn]] void fail(const std::string& message) const;

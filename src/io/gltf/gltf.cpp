@@ -58,7 +58,8 @@ class Reader {
     Buffers buffers_;
     TextureMaps maps_;
     std::vector<Instance> instances_;
-    std::vector<bool> used_; ///< materials
+    std::vector<bool> used_;       ///< materials
+    std::size_t orthographic_ = 0; ///< cameras before the one that is taken
 };
 
 ReadResult Reader::read() {
@@ -71,7 +72,8 @@ ReadResult Reader::read() {
     for (const Instance& instance : instances_) {
         const Node& node = document_.nodes[instance.node];
         if (node.mesh)
-            meshes.add(instance);
+            for (const Instance& placed : placed_meshes(instance, buffers_))
+                meshes.add(placed);
         if (node.camera)
             add_camera(instance);
     }
@@ -105,7 +107,8 @@ void Reader::count_triangles_of_scene() {
     std::size_t count = 0;
     for (const Instance& instance : instances_)
         if (const Index& mesh = document_.nodes[instance.node].mesh) {
-            count += of_mesh[*mesh];
+            const std::size_t places = count_placed_meshes(document_, instance.node);
+            count += of_mesh[*mesh] == 0 ? 0 : std::min(max_triangles + 1, places) * of_mesh[*mesh];
             if (count > max_triangles)
                 fail("/nodes/" + std::to_string(instance.node) + "/mesh",
                      "expected a scene of at most " + std::to_string(max_triangles) +
@@ -152,6 +155,8 @@ void Reader::add_camera(const Instance& instance) {
     if (result_.camera)
         return;
     const Node& node = document_.nodes[instance.node];
+    if (!document_.cameras[*node.camera].vertical_fov)
+        ++orthographic_;
     result_.camera = camera_of(document_, instance);
     if (!result_.camera)
         return;
@@ -211,6 +216,10 @@ void Reader::collect_warnings(const MeshTally& meshes) {
     warn(maps_.missing(),
          "a texture is not found, or neither PNG nor JPEG; the colour is its factor",
          "textures are not found, or neither PNG nor JPEG; colours are their factors");
+    warn(orthographic_, "an orthographic camera is left out", "orthographic cameras are left out");
+    if (!document_.unread_extensions.empty())
+        result_.warnings.push_back(path_ + ": the file uses extensions that are not read: " +
+                                   list_names(document_.unread_extensions));
     warn(meshes.without_coordinates, "a textured primitive has no texture coordinates",
          "textured primitives have no texture coordinates");
     warn(meshes.lines, "a primitive of points or lines is left out",

@@ -17,10 +17,18 @@ namespace hemilux::gltf {
 struct Instance {
     std::size_t node;
     glm::dmat4 to_world;
+    std::optional<std::size_t> number = {}; ///< by EXT_mesh_gpu_instancing
 };
 
-/// Returns the roots of the scene and all nodes below them, parents first.
+/// Returns the roots of the scene and all nodes below them, parents first, without hidden ones.
 [[nodiscard]] std::vector<Instance> instances_of(const Document& document);
+
+class Buffers;
+/// Returns the places at which a node shows its mesh: several with EXT_mesh_gpu_instancing. Throws
+/// InputError.
+[[nodiscard]] std::vector<Instance> placed_meshes(const Instance& instance, Buffers& buffers);
+/// Returns how many these are.
+[[nodiscard]] std::size_t count_placed_meshes(const Document& document, std::size_t node);
 
 /// Returns the camera of a node that has one, which looks along -z of the node, with y up (section
 /// 3.10.3). It returns none where the camera is not a perspective one or has no direction. The

@@ -98,6 +98,7 @@ Triangles TriangleReader::read(const Primitive& primitive, const std::string& pl
         triangles.corners.push_back({vertex[a], vertex[b], vertex[c]});
     }
     number_points(triangles, positions.size());
+    triangles.vertex = used_;
     triangles.points.reserve(used_.size());
     for (const std::uint32_t v : used_) {
         const Vec3 point(positions.at(v, 0), positions.at(v, 1), positions.at(v, 2));

@@ -12,7 +12,8 @@
 namespace hemilux::gltf {
 
 struct Triangles {
-    std::vector<Vec3> points; ///< those that triangles use
+    std::vector<Vec3> points;          ///< those that triangles use
+    std::vector<std::uint32_t> vertex; ///< of the primitive, by point
     std::vector<std::array<std::uint32_t, 3>> corners;
     /// Texture coordinates by set and point; empty where none are asked for.
     std::vector<std::vector<glm::vec2>> texcoords;

@@ -69,6 +69,10 @@ void SceneMeshes::add_primitive(const Instance& instance, std::size_t mesh, std:
     Scene& scene = result_.scene;
     const auto first = static_cast<std::uint32_t>(scene.vertices.size());
     place(triangles.points, instance);
+    result_.origins.push_back({instance.node, mesh, number, scene.faces,
+                               static_cast<std::uint32_t>(triangles.corners.size()), first,
+                               static_cast<std::uint32_t>(triangles.points.size()),
+                               instance.number});
     const bool mirrored = glm::determinant(glm::dmat3(instance.to_world)) < 0;
     for (auto [a, b, c] : triangles.corners) {
         if (mirrored)

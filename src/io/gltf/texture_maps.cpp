@@ -25,6 +25,10 @@ void TextureMaps::add(const TextureInfo& info, std::size_t material, Vec3 Materi
                       TextureMap MaterialTextures::*map, Scene& scene) {
     const Document& document = buffers_.document();
     const TextureSource& source = document.textures[info.texture];
+    if (!source.image && source.is_of_other_kind) {
+        ++missing_;
+        return;
+    }
     if (!source.image || *source.image >= document.images.size())
         throw InputError(buffers_.path(), "/textures/" + std::to_string(info.texture) +
                                               "/source: expected an image below " +

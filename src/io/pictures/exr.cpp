@@ -3,6 +3,8 @@
 #include "io/files/atomic_file.h"
 #include "io/files/little_endian.h"
 
+#include <glm/gtc/packing.hpp>
+
 #include <algorithm>
 #include <bit>
 
@@ -10,7 +12,10 @@ namespace hemilux {
 namespace {
 
 constexpr int rows_per_chunk = 16; // of ZIP compression
-constexpr std::size_t pixel_bytes = 4;
+
+std::size_t bytes_of(const ExrChannel& channel) {
+    return channel.kind == ExrChannel::Kind::half ? 2 : 4;
+}
 
 std::string whole(int value) {
     std::string bytes;
@@ -30,12 +35,14 @@ std::string attribute(const std::string& name, const std::string& type, const st
 
 std::string header(int width, int height, const std::vector<ExrChannel>& channels,
                    const Provenance& from) {
-    constexpr int magic = 20000630, version = 2, unsigned_int = 0, float_number = 2;
+    constexpr int magic = 20000630, version = 2;
+    const auto code_of = [](ExrChannel::Kind kind) { // of the format
+        return kind == ExrChannel::Kind::whole ? 0 : kind == ExrChannel::Kind::half ? 1 : 2;
+    };
     std::string list;
     for (const ExrChannel& channel : channels)
-        list += channel.name + '\0' +
-                whole(channel.kind == ExrChannel::Kind::whole ? unsigned_int : float_number) +
-                whole(0) + whole(1) + whole(1); // not perceptually linear; no subsampling
+        list += channel.name + '\0' + whole(code_of(channel.kind)) + whole(0) + whole(1) +
+                whole(1); // not perceptually linear; no subsampling
     const std::string box = whole(0) + whole(0) + whole(width - 1) + whole(height - 1);
     std::string text =
         whole(magic) + whole(version) + attribute("channels", "chlist", list + '\0') +
@@ -77,6 +84,20 @@ void add_exr_channels(std::vector<ExrChannel>& channels, const std::string& laye
     }
 }
 
+void add_half_exr_channels(std::vector<ExrChannel>& channels, const Image& image) {
+    constexpr float largest = 65'504;
+    const bool fit = std::ranges::all_of(image.pixels, [&](const glm::vec3& pixel) {
+        return std::max({pixel.r, pixel.g, pixel.b}) <= largest; // false for NaN
+    });
+    const std::size_t first = channels.size();
+    add_exr_channels(channels, "", image);
+    for (std::size_t c = first; fit && c < channels.size(); ++c) {
+        channels[c].kind = ExrChannel::Kind::half;
+        for (std::uint32_t& bits : channels[c].bits)
+            bits = glm::packHalf1x16(std::bit_cast<float>(bits));
+    }
+}
+
 void write_exr(const std::string& path, int width, int height, std::vector<ExrChannel> channels,
                const Provenance& from) {
     std::ranges::sort(channels, {}, &ExrChannel::name);
@@ -88,11 +109,16 @@ void write_exr(const std::string& path, int width, int height, std::vector<ExrCh
     for (int first = 0; first < height; first += rows_per_chunk) {
         const int end = std::min(first + rows_per_chunk, height);
         std::string rows;
-        rows.reserve(std::size_t(end - first) * columns * channels.size() * pixel_bytes);
+        rows.reserve(std::size_t(end - first) * columns * channels.size() * sizeof(float));
         for (std::size_t y = std::size_t(first); y < std::size_t(end); ++y)
             for (const ExrChannel& channel : channels)
-                for (std::size_t x = 0; x < columns; ++x)
-                    append_number(rows, channel.bits[y * columns + x]);
+                for (std::size_t x = 0; x < columns; ++x) {
+                    const std::uint32_t bits = channel.bits[y * columns + x];
+                    if (bytes_of(channel) == 2)
+                        append_number(rows, static_cast<std::uint16_t>(bits));
+                    else
+                        append_number(rows, bits);
+                }
         const std::string packed = compressed(rows);
         append_number(offsets, std::uint64_t{begin + chunks.size()});
         chunks += whole(first) + whole(static_cast<int>(packed.size())) + packed;

@@ -14,6 +14,31 @@
 #include <memory>
 #include <new>
 
+#ifdef HEMILUX_ZLIB
+#include <zlib.h>
+
+namespace {
+
+/// Compresses by zlib, which is faster than stb_image_write; the caller frees the bytes. A null
+/// pointer says that there is no memory.
+unsigned char* compressed_by_zlib(unsigned char* bytes, int length, int* packed_length,
+                                  int quality) {
+    constexpr int most = 6; // beyond, it takes long for little
+    uLongf size = compressBound(static_cast<uLong>(length));
+    auto* const packed = static_cast<unsigned char*>(std::malloc(size));
+    if (packed && compress2(packed, &size, bytes, static_cast<uLong>(length),
+                            std::min(quality, most)) != Z_OK) {
+        std::free(packed);
+        return nullptr;
+    }
+    *packed_length = static_cast<int>(size);
+    return packed;
+}
+
+} // namespace
+
+#define STBIW_ZLIB_COMPRESS compressed_by_zlib
+#endif
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #include <stb_image_write.h>
@@ -114,7 +139,7 @@ double auto_exposure(const Image& image, const Image& emission) {
 }
 
 std::string zlib_compressed(std::vector<unsigned char> bytes) {
-    constexpr int quality = 8;
+    constexpr int quality = 5;
     int length = 0;
     const std::unique_ptr<unsigned char, decltype(&std::free)> packed(
         stbi_zlib_compress(bytes.data(), static_cast<int>(bytes.size()), &length, quality),
@@ -129,6 +154,13 @@ std::uint8_t srgb_byte(float linear) {
     return table.of(linear);
 }
 
+std::string png_of(int width, int height, const std::vector<std::uint8_t>& rgb) {
+    std::string file;
+    if (!stbi_write_png_to_func(append, &file, width, height, 3, rgb.data(), 3 * width))
+        throw std::bad_alloc();
+    return file;
+}
+
 void write_png(const std::string& path, const Image& image, const Display& display,
                const Provenance& from) {
     std::vector<std::uint8_t> bytes(3 * image.pixels.size());
@@ -138,10 +170,7 @@ void write_png(const std::string& path, const Image& image, const Display& displ
         for (int channel = 0; channel < 3; ++channel)
             *byte++ = srgb_byte(shown[channel]);
     }
-    std::string file;
-    if (!stbi_write_png_to_func(append, &file, image.width, image.height, 3, bytes.data(),
-                                3 * image.width))
-        throw OutputError(path, "cannot encode the picture");
+    std::string file = png_of(image.width, image.height, bytes);
     add_to_png(file, from);
     write_atomically(path, file);
 }

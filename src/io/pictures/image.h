@@ -53,6 +53,10 @@ struct Image {
 /// nothing is emitted.
 [[nodiscard]] double auto_exposure(const Image& image, const Image& emission = {});
 
+/// Returns the bytes of a PNG file of three bytes a pixel, row by row from the top left. Throws
+/// std::bad_alloc.
+[[nodiscard]] std::string png_of(int width, int height, const std::vector<std::uint8_t>& rgb);
+
 /// Writes 8 bits per channel through the sRGB curve, as `display` shows the light. Where the
 /// provenance is known, the file has tEXt chunks Software, Command and Seed. Throws OutputError.
 void write_png(const std::string& path, const Image& image, const Display& display,

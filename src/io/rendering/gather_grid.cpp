@@ -59,7 +59,7 @@ double GatherGrid::spacing(int x, int y) const {
     double largest = 0;
     for (const auto& [dx, dy] : {std::pair(1, 0), {0, 1}, {-1, 0}, {0, -1}})
         if (const GridPoint* const there = point(x + dx, y + dy);
-            there && here->is_of_surface(there->at))
+            there && here->is_of_surface(*there))
             largest = std::max(largest, glm::distance(here->at.position, there->at.position));
     return largest;
 }

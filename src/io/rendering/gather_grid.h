@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace hemilux {
@@ -28,9 +29,17 @@ struct GridPoint {
     Vec2 squares{0.0};       ///< of the light that the rays read, and of that of bright patches
     bool aims = false;       ///< further rays are partly aimed at bright patches
     std::uint8_t shadow = 0; ///< Shadow, of rays from here and from the points beside it
+    bool is_coarse = false;  ///< light changes faster than points are close together
+    /// The part of a picture, such as a chart of a lightmap, in which neighbours are near each
+    /// other on the surface.
+    std::uint32_t part = 0;
 
-    [[nodiscard]] bool is_of_surface(const SurfacePoint& point) const {
-        return is_same_surface(point.position, point.normal, at.position, at.normal);
+    [[nodiscard]] bool is_of_surface(const SurfacePoint& point, std::uint32_t part_of_point) const {
+        return part_of_point == part &&
+               is_same_surface(point.position, point.normal, at.position, at.normal);
+    }
+    [[nodiscard]] bool is_of_surface(const GridPoint& other) const {
+        return is_of_surface(other.at, other.part);
     }
 };
 
@@ -43,6 +52,9 @@ class GatherGrid {
     /// called by several threads.
     GatherGrid(const Mesh& mesh, const CameraRays& camera, int width, int height,
                const std::function<void()>& check, const Workers& workers);
+    /// Takes points row after row, those without a surface with facet none.
+    GatherGrid(int columns, int rows, std::vector<GridPoint> points)
+        : columns_(columns), rows_(rows), points_(std::move(points)) {}
 
     [[nodiscard]] int columns() const { return columns_; }
     /// Returns the number of all points, also those without a surface. They are numbered row after
@@ -68,7 +80,7 @@ class GatherGrid {
         for (int dy = -reach; dy <= reach; ++dy)
             for (int dx = -reach; dx <= reach; ++dx)
                 if (const GridPoint* const there = point(x + dx, y + dy);
-                    there && here.is_of_surface(there->at))
+                    there && here.is_of_surface(*there))
                     visit(*there);
     }
     /// Calls visit(point, x, y) for each point with a surface, in several threads. Calls check(),

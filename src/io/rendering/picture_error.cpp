@@ -18,14 +18,7 @@ namespace {
 /// The number of places in a pixel for each of the two estimates.
 constexpr std::size_t places_in_pixel = 8;
 
-struct Place {
-    SurfacePoint at;
-    Colours colours;
-};
-struct JudgedPixel {
-    std::vector<Place> places; ///< of both estimates; empty: it is not judged
-    Vec3 shown;
-};
+using Place = JudgedPixel::Place;
 
 std::optional<Place> place_at(const Mesh& mesh, const Tracer& tracer, const Ray& ray) {
     const std::optional<Visible> visible = look(mesh, tracer, ray);
@@ -77,21 +70,32 @@ PictureError picture_error(const Mesh& mesh, const Tracer& tracer, const Surface
             if (!pixel.places.empty())
                 pixels.push_back(std::move(pixel));
         }
+    return error_of_pixels(mesh, tracer, light, pixels, seed, false, workers);
+}
+
+PictureError error_of_pixels(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
+                             std::span<const JudgedPixel> pixels, std::uint64_t seed,
+                             bool only_reflected, const Workers& workers) {
+    constexpr std::size_t places = 2 * places_in_pixel;
+    const auto place_of = [](const JudgedPixel& pixel, std::size_t j) -> const Place& {
+        return pixel.places[pixel.places.size() == 1 ? 0 : j];
+    };
     std::vector<SurfacePoint> at;
     std::vector<std::uint64_t> streams;
     for (const JudgedPixel& pixel : pixels)
-        for (const Place& place : pixel.places) {
-            at.push_back(place.at);
+        for (std::size_t j = 0; j < places; ++j) {
+            at.push_back(place_of(pixel, j).at);
             streams.push_back(hash_words({seed, at.size()}));
         }
     FinalGather gather(mesh, tracer, light);
+    gather.set_only_reflected(only_reflected);
     const StopFlag never;
     const std::vector<Vec3> irradiance = gather.irradiance(at, streams, 1, workers, never);
     double products = 0, squares = 0, size = 0;
     for (std::size_t k = 0, next = 0; k < pixels.size(); ++k) {
         std::array<Vec3, 2> off{}, reflected{};
-        for (std::size_t j = 0; j < 2 * places_in_pixel; ++j, ++next) {
-            const Colours& colours = pixels[k].places[j].colours;
+        for (std::size_t j = 0; j < places; ++j, ++next) {
+            const Colours& colours = place_of(pixels[k], j).colours;
             const Vec3 here = colours.reflectance * irradiance[next] / double(places_in_pixel);
             reflected.at(j / places_in_pixel) += here;
             off.at(j / places_in_pixel) +=

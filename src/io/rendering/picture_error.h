@@ -4,10 +4,14 @@
 
 #include "io/pictures/camera.h"
 #include "io/pictures/image.h"
+#include "radiosity/engine/rays/surface_point.h"
 #include "radiosity/light/cached_light/surface_light.h"
+#include "radiosity/paper/scene/varying_colours.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace hemilux {
 
@@ -28,5 +32,23 @@ struct PictureError {
                                          const SurfaceLight& light, const CameraRays& camera,
                                          const Image& picture, std::size_t pixels,
                                          std::uint64_t seed, const Workers& workers);
+
+/// A pixel that is judged, by what it shows at places in it.
+struct JudgedPixel {
+    struct Place {
+        SurfacePoint at;
+        Colours colours;
+    };
+    /// Those of both estimates, half for each; one place stands for all. Empty: it is not judged.
+    std::vector<Place> places;
+    Vec3 shown; ///< its light [W/m2]
+};
+
+/// Does the same for pixels that were chosen. With `only_reflected` they show no light that arrives
+/// straight from where it is emitted.
+[[nodiscard]] PictureError error_of_pixels(const Mesh& mesh, const Tracer& tracer,
+                                           const SurfaceLight& light,
+                                           std::span<const JudgedPixel> pixels, std::uint64_t seed,
+                                           bool only_reflected, const Workers& workers);
 
 } // namespace hemilux

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -17,6 +18,9 @@ constexpr double of_emitters = 2;
 
 /// Points that average over fewer steps than these get more rays, or many.
 constexpr double steps_for_more = 7, steps_for_many = 3.5;
+
+/// With fewer steps than these the light changes from point to point.
+constexpr double coarse_steps = 1.5;
 
 /// Relative errors of means from which points get more rays, or many.
 constexpr double noise_for_more = .05, noise_for_many = .1;
@@ -53,8 +57,15 @@ struct SomePoints {
 PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
                              const CameraRays& camera, int width, int height,
                              const PictureGatherOptions& options, const Workers& workers)
-    : options_(options), in_parts_(mesh, tracer, light),
-      grid_(mesh, camera, width, height, options.check, workers), light_(grid_) {
+    : PictureGather(mesh, tracer, light,
+                    GatherGrid(mesh, camera, width, height, options.check, workers), options,
+                    workers) {}
+
+PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
+                             GatherGrid grid, const PictureGatherOptions& options,
+                             const Workers& workers)
+    : options_(options), in_parts_(mesh, tracer, light, options.only_reflected),
+      grid_(std::move(grid)), light_(grid_) {
     gather([&](int, int) { return std::max(1u, options_.rays / 4); }, Shadows::traced, workers);
     grid_.ask_neighbours(workers);
     judge_points(workers);
@@ -132,6 +143,7 @@ void PictureGather::judge_points(const Workers& workers) {
     grid_.for_each_point(workers, [&](const GridPoint& here, int x, int y) {
         GridPoint& judged = grid_[grid_.number_of(here)];
         judged.noise = light_.noise_around(here, x, y);
+        judged.is_coarse = reach_of(here.nearness) < coarse_steps * grid_.spacing(x, y);
         Vec2 squares(0.0);
         grid_.for_each_around(here, x, y, reach_points,
                               [&](const GridPoint& there) { squares += there.squares; });
@@ -144,14 +156,17 @@ void PictureGather::judge_points(const Workers& workers) {
 std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Place> places) const {
     SomePoints alone, in_penumbra;
     std::vector<Light> found(places.size());
-    const unsigned each = std::max(1u, options_.rays / (2 * options_.samples)),
+    const unsigned share = options_.gathers_coarse ? 1 : 2,
+                   each = std::max(1u, options_.rays / (share * options_.samples)),
                    of_pixel = each * options_.samples;
     for (std::size_t k = 0; k < places.size(); ++k) {
         const Place& place = places[k];
         const int x = static_cast<int>(place.pixel.x), y = static_cast<int>(place.pixel.y);
         auto& [direct, slow] = found[k];
-        const std::optional<SlowLightField::Around> around =
-            light_.interpolate(place.at, place.pixel);
+        std::optional<SlowLightField::Around> around =
+            light_.interpolate(place.at, place.pixel, place.part);
+        if (options_.gathers_coarse && around && around->is_coarse)
+            around.reset();
         if (around)
             slow = around->light;
         else

@@ -16,6 +16,7 @@
 #include "io/rendering/slow_light.h"
 #include "radiosity/light/final_gather/gather_in_parts.h"
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -27,7 +28,11 @@ struct PictureGatherOptions {
     /// neighbours to average over, and up to about four times as many where it has few. A pixel at
     /// the edge of a shadow takes half as many shadow rays. Four times as many halve the noise.
     unsigned rays = 16;
-    unsigned samples = 4;                ///< of a pixel
+    unsigned samples = 4; ///< of a pixel
+    /// Where light changes faster than the points of the grid are close together, each place
+    /// gathers by itself: pictures are smooth there, which texels of a lightmap are too large for.
+    bool gathers_coarse = false;
+    bool only_reflected = false;         ///< nothing that arrives straight from emitters
     std::function<void()> check = [] {}; ///< may throw to end it; is called by several threads
 };
 
@@ -36,6 +41,9 @@ class PictureGather {
     PictureGather(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
                   const CameraRays& camera, int width, int height,
                   const PictureGatherOptions& options, const Workers& workers);
+    /// Gathers at the points of a grid; pixel (0, 0) to (2, 2) is around its first point.
+    PictureGather(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
+                  GatherGrid grid, const PictureGatherOptions& options, const Workers& workers);
 
     /// A place where samples of a pixel show a surface: `count` of them, the first of which is
     /// number `sample` of the pixel.
@@ -43,6 +51,7 @@ class PictureGather {
         SurfacePoint at;
         Vec2 pixel; ///< in pixels
         unsigned sample, count;
+        std::uint32_t part = 0; ///< GridPoint::part
     };
     /// Direct light is slow.unshadowed times the share of it that arrives. This share is the ratio
     /// of sums over `direct` of places around, as the few rays of one place estimate it badly.

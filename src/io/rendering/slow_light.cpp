@@ -22,7 +22,7 @@ double ends(int step) { return std::abs(step) == reach_points ? .5 : 1; }
 /// Returns the weight of a point for the mean around another; 0 or less where it is too far away or
 /// of another surface. `most` is the inverse of a distance within which none is too far.
 double weight_of(const GridPoint& here, const GridPoint* there, double most) {
-    if (!there || !here.is_of_surface(there->at))
+    if (!there || !here.is_of_surface(*there))
         return 0;
     const Vec3 way = there->at.position - here.at.position;
     const double share = std::min(std::max(here.nearness, there->nearness) / reach_share, most);
@@ -109,8 +109,8 @@ void SlowLightField::fit(int stride, const std::function<void()>& check, const W
     light_ = std::move(fitted);
 }
 
-std::optional<SlowLightField::Around> SlowLightField::interpolate(const SurfacePoint& at,
-                                                                  const Vec2& pixel) const {
+std::optional<SlowLightField::Around>
+SlowLightField::interpolate(const SurfacePoint& at, const Vec2& pixel, std::uint32_t part) const {
     const double x = pixel.x / GatherGrid::step - .5, y = pixel.y / GatherGrid::step - .5;
     const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
     constexpr double least = 1e-3; // on an edge of the square of points both sides count
@@ -121,7 +121,7 @@ std::optional<SlowLightField::Around> SlowLightField::interpolate(const SurfaceP
         for (int dy = -ring; dy <= 1 + ring; ++dy)
             for (int dx = -ring; dx <= 1 + ring; ++dx) {
                 const GridPoint* const there = grid_.point(left + dx, top + dy);
-                if (!there || !there->is_of_surface(at))
+                if (!there || !there->is_of_surface(at, part))
                     continue;
                 const Vec3 way = there->at.position - at.position;
                 const double share = there->nearness / reach_share;
@@ -135,6 +135,7 @@ std::optional<SlowLightField::Around> SlowLightField::interpolate(const SurfaceP
                 sum.add(slope_[of][1], weight * (y - top - dy));
                 weights += weight;
                 around.shadow |= there->shadow;
+                around.is_coarse = around.is_coarse || there->is_coarse;
             }
         if (!(weights > 0))
             continue;

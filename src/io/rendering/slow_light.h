@@ -58,12 +58,13 @@ class SlowLightField {
     struct Around {
         SlowLight light;
         std::uint8_t shadow = 0; ///< Shadow
+        bool is_coarse = false;  ///< GridPoint::is_coarse of some
     };
     /// Interpolates from the four points around a place of the picture [pixels], as far as they are
     /// of the same surface. Where none is, as on narrow strips, it takes the twelve around these;
     /// empty where none of them is either.
-    [[nodiscard]] std::optional<Around> interpolate(const SurfacePoint& at,
-                                                    const Vec2& pixel) const;
+    [[nodiscard]] std::optional<Around> interpolate(const SurfacePoint& at, const Vec2& pixel,
+                                                    std::uint32_t part = 0) const;
 
   private:
     const GatherGrid& grid_;

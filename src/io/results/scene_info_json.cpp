@@ -24,6 +24,23 @@ Json to_object(std::span<const LeftOut> left_out) {
     return list;
 }
 
+Json names_of(const std::vector<EmitterInfo>& emitters) {
+    Json names = Json::array();
+    for (const EmitterInfo& emitter : emitters)
+        names.push_back(emitter.name);
+    return names;
+}
+
+Json to_list(const std::vector<EmitterInfo>& emitters) {
+    Json list = Json::array();
+    for (const EmitterInfo& emitter : emitters)
+        list.push_back({{"material", emitter.name},
+                        {"emission", vector(emitter.emission)},
+                        {"power", vector(emitter.power)},
+                        {"both_sides", emitter.both_sides}});
+    return list;
+}
+
 Json to_object(const SceneReport& report) {
     const SceneInfo& info = report.info;
     return {
@@ -39,7 +56,8 @@ Json to_object(const SceneReport& report) {
         {"highest_corner", vector(info.bounds.high)},
         {"total_area", info.total_area},
         {"emitted_power", vector(info.emitted_power)},
-        {"emitting_materials", info.emitters},
+        {"emitting_materials", names_of(info.emitters)},
+        {"emitters", to_list(info.emitters)},
         {"faces_without_area", info.degenerate_faces},
         {"faces_not_planar", info.nonplanar_faces},
         {"faces_concave", info.concave_faces},

@@ -44,6 +44,7 @@ bool emits(const Vec3& e) { return e.x > 0 || e.y > 0 || e.z > 0; }
 /// Areas are computed in units in which the scene has a size of about 1, so that no square
 /// vanishes or overflows.
 void sum_areas(const Scene& scene, SceneInfo& info) {
+    std::vector<EmitterInfo> of_material(scene.materials.size());
     const Vec3 extent = info.bounds.extent();
     int exponent = 0;
     std::frexp(std::max({extent.x, extent.y, extent.z}), &exponent);
@@ -54,9 +55,20 @@ void sum_areas(const Scene& scene, SceneInfo& info) {
             shape.corner[i] = (scene.vertices[facet.vertex[i]] - info.bounds.low) * scale;
         const double area = std::ldexp(shape.area(), 2 * exponent);
         info.total_area += area;
-        info.emitted_power +=
-            area * (facet.two_sided ? 2.0 : 1.0) * scene.materials[facet.material].emission;
+        const Material& material = scene.materials[facet.material];
+        if (!emits(material.emission))
+            continue;
+        const Vec3 power = area * (facet.two_sided ? 2.0 : 1.0) * material.emission;
+        info.emitted_power += power;
+        EmitterInfo& emitter = of_material[facet.material];
+        emitter.name = material.name;
+        emitter.emission = material.emission;
+        emitter.power += power;
+        emitter.both_sides |= facet.two_sided;
     }
+    for (EmitterInfo& emitter : of_material)
+        if (emits(emitter.emission))
+            info.emitters.push_back(std::move(emitter));
 }
 
 /// Finds covered facets in the way that Mesh does.
@@ -66,6 +78,30 @@ void find_covered(Scene scene, SceneInfo& info) {
     const CoplanarLayers layers = find_coplanar_layers(scene, vertices);
     info.covered_facets = layers.covered;
     info.all_compared = layers.complete;
+}
+
+/// Returns a colour as one number where its channels are alike.
+std::string text_of_colour(const Vec3& v) {
+    return v.x == v.y && v.y == v.z ? text_of(v.x) : text_of(v);
+}
+
+/// Returns a line for each of the first emitters.
+std::string describe_emitters(const std::vector<EmitterInfo>& emitters) {
+    constexpr std::size_t most = 8;
+    const std::string name = "emitting materials";
+    if (emitters.empty())
+        return info_line(name, "none");
+    std::string text;
+    for (std::size_t k = 0; k < std::min(emitters.size(), most); ++k) {
+        const EmitterInfo& emitter = emitters[k];
+        text += info_line(k == 0 ? name : "",
+                          emitter.name + ": " + text_of_colour(emitter.emission) + " W/m2, " +
+                              text_of(emitter.power.x + emitter.power.y + emitter.power.z) +
+                              " W in all channels" + (emitter.both_sides ? ", to both sides" : ""));
+    }
+    if (emitters.size() > most)
+        text += info_line("", "and " + std::to_string(emitters.size() - most) + " more");
+    return text;
 }
 
 } // namespace
@@ -91,10 +127,6 @@ SceneInfo inspect(const ReadResult& read) {
     info.degenerate_faces = read.degenerate_faces;
     info.nonplanar_faces = read.nonplanar_faces;
     info.concave_faces = read.concave_faces;
-    const std::vector<bool> used = materials_in_use(scene);
-    for (std::size_t m = 0; m < used.size(); ++m)
-        if (used[m] && emits(scene.materials[m].emission))
-            info.emitters.push_back(scene.materials[m].name);
     info.bad_reflectances = find_bad_reflectances(read);
     return info;
 }
@@ -133,8 +165,7 @@ std::string describe(const SceneInfo& info) {
     text += info_line("size", text_of(info.bounds.extent()));
     text += info_line("total area", text_of(info.total_area));
     text += info_line("emitted power", text_of(info.emitted_power) + " (red, green, blue)");
-    text +=
-        info_line("emitting materials", info.emitters.empty() ? "none" : list_names(info.emitters));
+    text += describe_emitters(info.emitters);
     add_doubt(text, "without area", info.degenerate_faces, "face", "left out");
     add_doubt(text, "not planar", info.nonplanar_faces, "face", "divided into triangles");
     add_doubt(text, "concave", info.concave_faces, "face", "divided into triangles");

@@ -12,6 +12,14 @@
 
 namespace hemilux {
 
+/// A material that is used and emits.
+struct EmitterInfo {
+    std::string name;
+    Vec3 emission{0.0};      ///< [W/m2], the mean of textures
+    Vec3 power{0.0};         ///< of all its faces, both sides [W]
+    bool both_sides = false; ///< some of its faces shine to both sides
+};
+
 struct SceneInfo {
     std::size_t faces = 0;                            ///< faces in the file
     std::size_t facets = 0, triangles = 0, quads = 0; ///< made of them
@@ -27,7 +35,7 @@ struct SceneInfo {
     bool all_compared = true;       ///< else some more may be covered
     std::size_t degenerate_faces = 0, nonplanar_faces = 0, concave_faces = 0;
 
-    std::vector<std::string> emitters; ///< names of materials that are used and emit
+    std::vector<EmitterInfo> emitters;
     std::vector<std::string> bad_reflectances;
 };
 

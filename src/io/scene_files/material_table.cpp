@@ -105,6 +105,8 @@ void MaterialTable::read_library(const std::string& file, const std::string& whe
         before_library_(bytes_per_character * static_cast<double>(size));
     result_.libraries.push_back(file);
     MtlFile read = read_mtl(file);
+    for (const std::string& warning : read.warnings)
+        result_.warnings.push_back(file + ":" + warning);
     for (const MtlMaterial& material : read.materials)
         define(file, material);
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
@@ -134,6 +136,7 @@ void MaterialTable::define(const std::string& file, const MtlMaterial& material)
 
 void MaterialTable::finish() {
     warn_of_undefined();
+    warn_of_surfaces();
     if (!read_textures_)
         return;
     for (std::size_t m = 0; m < entries_.size(); ++m) {
@@ -206,12 +209,47 @@ void MaterialTable::warn_of_undefined() {
                                    "): reflectance 0.5, no emission");
 }
 
+/// Warns of materials in use that do not send light as the file says.
+void MaterialTable::warn_of_surfaces() {
+    const auto warn = [&](const auto& statement_of, const std::string& one,
+                          const std::string& many) {
+        std::vector<std::string> names;
+        std::string where;
+        for (std::size_t m = 0; m < entries_.size(); ++m) {
+            if (!entries_[m].used || !entries_[m].definition)
+                continue;
+            const std::string statement = statement_of(*entries_[m].definition);
+            if (statement.empty())
+                continue;
+            if (names.empty())
+                where = result_.material_source[m] + ": ";
+            names.push_back(in_quotes(result_.scene.materials[m].name) + ": " + statement);
+        }
+        if (!names.empty())
+            result_.warnings.push_back(
+                where + (names.size() == 1 ? one : std::to_string(names.size()) + " " + many) +
+                " (" + list_names(names, 4) + ")");
+    };
+    warn([](const MtlMaterial& of) { return of.transparent; },
+         "a material lets light through; it is opaque here",
+         "materials let light through; they are opaque here");
+    warn([](const MtlMaterial& of) { return of.mirror; },
+         "a material is a mirror or a metal; it reflects diffusely here, by Kd",
+         "materials are mirrors or metals; they reflect diffusely here, by Kd");
+    warn(
+        [](const MtlMaterial& of) {
+            return std::string(of.reflectance_map && of.reflectance == Vec3(0.0) ? "Kd 0" : "");
+        },
+        "a material has Kd 0 and a map_Kd, which it multiplies: it is black",
+        "materials have Kd 0 and a map_Kd, which it multiplies: they are black");
+}
+
 void MaterialTable::warn_of_textures() {
     if (missing_ > 0)
         result_.warnings.push_back(
             path_ + ": " + std::to_string(missing_) +
             (missing_ == 1 ? " texture is" : " textures are") +
-            " not found, or neither PNG nor JPEG; colours are Kd and Ke alone there (" +
+            " not found, or neither PNG, JPEG nor TGA; colours are Kd and Ke alone there (" +
             in_quotes(first_missing_) + (missing_ == 1 ? ")" : " is the first)"));
 }
 

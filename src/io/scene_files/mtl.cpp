@@ -8,6 +8,7 @@
 #include <array>
 #include <functional>
 #include <set>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -32,12 +33,55 @@ Vec3 read_colour(const std::string& path, const Statement& statement) {
     return colour;
 }
 
-MtlMaterial new_material(const std::string& path, const Statement& statement) {
+/// Returns whether a colour is given in a way that is not read: as a spectrum or in CIE XYZ.
+bool is_other_colour(const Statement& statement) {
+    std::string_view rest = statement.rest;
+    const std::string_view word = take_word(rest);
+    return word == "xyz" || word == "spectral";
+}
+
+/// Adds to the material whether the surface is one that is not diffuse here.
+void read_surface(const Statement& statement, MtlMaterial& material) {
+    const std::string_view keyword = statement.keyword;
+    std::string_view rest = statement.rest;
+    const std::string_view word = take_word(rest);
+    const std::optional<double> number = parse_decimal(word);
+    const std::string text = std::string(keyword) + " " + std::string(word);
+    if (keyword == "map_d") {
+        material.transparent = "map_d";
+    } else if (!number) {
+        return;
+    } else if (keyword == "illum") {
+        // Kinds 4 and 9 are transparent by d only; some exporters write them for all materials.
+        const double kind = *number;
+        if (kind == 6 || kind == 7)
+            material.transparent = text;
+        else if (kind == 3 || kind == 5)
+            material.mirror = text;
+    } else if (keyword == "d" || (keyword == "Tr" && !material.has_opacity)) {
+        constexpr double opaque = .999;
+        // Exporters disagree on what Tr means, so d says it alone where there is one.
+        if (keyword == "d" && !std::exchange(material.has_opacity, true) &&
+            material.transparent.starts_with("Tr"))
+            material.transparent.clear();
+        if ((keyword == "d" ? *number : 1 - *number) < opaque)
+            material.transparent = text;
+    } else if (keyword == "Pm") {
+        constexpr double metal = .5;
+        if (*number > metal)
+            material.mirror = text;
+    }
+}
+
+MtlMaterial new_material(const Statement& statement, std::vector<std::string>& warnings) {
     MtlMaterial material;
     material.name = name_in(statement.rest);
     material.line = statement.line;
-    if (material.name.empty())
-        throw InputError(path, statement.line, "expected a name after newmtl");
+    if (material.name.empty()) {
+        material.name = unnamed_material;
+        warnings.push_back(std::to_string(statement.line) +
+                           ": a material without a name; it is that of faces without one");
+    }
     return material;
 }
 
@@ -76,6 +120,22 @@ void take_numbers(std::string_view& rest, Vec2& values, bool same) {
     }
 }
 
+constexpr std::array<std::string_view, 13> options{"-blendu",  "-blendv", "-boost", "-bm",    "-cc",
+                                                   "-imfchan", "-texres", "-type",  "-clamp", "-s",
+                                                   "-o",       "-t",      "-mm"};
+
+/// Returns a name without options behind it, which some exporters write there.
+std::string_view without_options(std::string_view name) {
+    for (std::size_t at = name.find(" -"); at != std::string_view::npos;
+         at = name.find(" -", at + 1)) {
+        std::string_view rest = name.substr(at);
+        const std::string_view word = take_word(rest);
+        if (std::ranges::find(options, word) != options.end() && !trimmed(rest).empty())
+            return name.substr(0, at);
+    }
+    return name;
+}
+
 /// Reads the name and the options that change where the picture lies. Other known options are
 /// passed over with their words. The result is empty where no name follows.
 std::optional<MtlTexture> read_texture(std::string_view rest) {
@@ -98,7 +158,7 @@ std::optional<MtlTexture> read_texture(std::string_view rest) {
             break;
         }
     }
-    texture.name = trimmed(rest);
+    texture.name = trimmed(without_options(trimmed(rest)));
     std::ranges::replace(texture.name, '\\', '/');
     return texture.name.empty() ? std::nullopt : std::optional(std::move(texture));
 }
@@ -121,9 +181,14 @@ MtlFile read_mtl(const std::string& path) {
         if (names_texture(statement.keyword))
             add_textures(statement.rest, textures);
         if (statement.keyword == "newmtl")
-            materials.push_back(new_material(path, statement));
+            materials.push_back(new_material(statement, file.warnings));
         else if (materials.empty())
             continue;
+        else if ((statement.keyword == "Kd" || statement.keyword == "Ke") &&
+                 is_other_colour(statement))
+            file.warnings.push_back(std::to_string(statement.line) + ": " +
+                                    std::string(statement.keyword) +
+                                    " as a spectrum or in XYZ is not read");
         else if (statement.keyword == "Kd")
             materials.back().reflectance = read_colour(path, statement);
         else if (statement.keyword == "Ke")
@@ -132,6 +197,8 @@ MtlFile read_mtl(const std::string& path) {
             materials.back().reflectance_map = read_texture(statement.rest);
         else if (statement.keyword == "map_Ke")
             materials.back().emission_map = read_texture(statement.rest);
+        else
+            read_surface(statement, materials.back());
     }
     for (std::string name : textures) {
         std::ranges::replace(name, '\\', '/');

@@ -1,6 +1,6 @@
 #pragma once
 // Wavefront material libraries (MTL), as far as they are about light. Kd is the reflectance and Ke
-// the emission; all other statements are passed over, wherever they stand.
+// the emission. Of all else it is kept whether it makes a surface one that is not diffuse here.
 
 #include "geometry/vector.h"
 
@@ -18,12 +18,19 @@ struct MtlTexture {
     bool clamp = false;
 };
 
+/// The name of a material whose newmtl has none, as of faces that name none.
+inline constexpr const char* unnamed_material = "default";
+
 struct MtlMaterial {
     std::string name;
     std::size_t line = 0;            ///< line of its newmtl
     std::optional<Vec3> reflectance; ///< Kd, each channel >= 0 and possibly 1 or more
     std::optional<Vec3> emission;    ///< Ke, each channel >= 0 [W/m2]
     std::optional<MtlTexture> reflectance_map, emission_map; ///< map_Kd, map_Ke
+    /// The statement by which the surface lets light through (d, Tr, map_d, illum 6 and 7), and
+    /// that by which it is a mirror or a metal (illum 3 and 5, Pm); empty: there is none.
+    std::string transparent, mirror;
+    bool has_opacity = false; ///< by d
 };
 
 struct MtlFile {
@@ -31,6 +38,7 @@ struct MtlFile {
     /// Names of the files that it refers to, each once. After options such as `-s 2 2 1` every tail
     /// of the line counts as a name, as only some options have a known number of words.
     std::vector<std::string> textures;
+    std::vector<std::string> warnings; ///< "line: ..." of statements that are passed over
 };
 
 /// Reads a library. Throws InputError.

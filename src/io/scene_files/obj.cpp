@@ -226,6 +226,8 @@ void ObjReader::collect_warnings() {
          "statements whose keywords have capitals are left out");
     warn(contents_.odd_texcoords, "a texture coordinate is no number within 1e6; it is 0 here",
          "texture coordinates are no numbers within 1e6; they are 0 here");
+    warn(contents_.coloured, "a vertex has a colour, which is not read",
+         "vertices have colours, which are not read");
     warn(contents_.free_form, "a statement of a free-form curve or surface is left out",
          "statements of free-form curves and surfaces are left out");
 }

@@ -16,12 +16,28 @@ constexpr std::array<std::string_view, 15> free_form_keywords{
     "curv", "curv2", "surf", "vp",   "cstype", "deg", "bmat", "step",
     "parm", "trim",  "hole", "scrv", "sp",     "end", "con"};
 
+/// Returns whether a colour follows the three coordinates of a vertex: six words or more.
+bool has_colour(std::string_view rest) {
+    constexpr std::size_t words_with_colour = 6;
+    constexpr std::string_view blanks = " \t\v\f";
+    std::size_t words = 0, at = 0;
+    while (words < words_with_colour && (at = rest.find_first_not_of(blanks, at)) < rest.size()) {
+        if (rest[at] == '#')
+            return false;
+        ++words;
+        at = rest.find_first_of(blanks, at);
+    }
+    return words == words_with_colour;
+}
+
 } // namespace
 
 void ObjStatements::read(const Statement& statement) {
     const std::string_view keyword = statement.keyword;
     if (keyword == "v") {
         contents_.vertices.push_back(point_of(statement, path_));
+        if (has_colour(statement.rest))
+            contents_.coloured.add(statement.line);
     } else if (keyword == "f" || keyword == "fo") { // fo: of old files
         read_face(statement);
     } else if (keyword == "g" || keyword == "o") {

@@ -42,7 +42,7 @@ struct ObjContents {
     std::vector<glm::vec2> texcoords;
     std::vector<std::uint32_t> texcoord_of_corner; ///< empty where textures are not read
     std::vector<std::string> groups;
-    LineTally free_form, lines_and_points, capitals, odd_texcoords;
+    LineTally free_form, lines_and_points, capitals, odd_texcoords, coloured;
 
     [[nodiscard]] std::span<const std::uint32_t> corners_of(std::size_t face) const {
         const std::size_t begin = faces[face].first_corner;

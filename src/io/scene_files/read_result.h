@@ -14,6 +14,14 @@
 
 namespace hemilux {
 
+/// A primitive of a glTF file as a node shows it: the faces and vertices of the scene that were
+/// read from it. Face k is its triangle k, also where it has no area and so no facet.
+struct PrimitiveOrigin {
+    std::size_t node, mesh, primitive;
+    std::uint32_t first_face, faces, first_vertex, vertices;
+    std::optional<std::size_t> instance = {}; ///< its number by EXT_mesh_gpu_instancing
+};
+
 struct ReadResult {
     Scene scene;
     std::vector<std::string> warnings;        ///< "file: ..." or "file:line: ..."
@@ -26,6 +34,7 @@ struct ReadResult {
     std::size_t concave_faces = 0;
     std::optional<Camera> camera; ///< the first of the file
     std::string camera_name;
+    std::vector<PrimitiveOrigin> origins; ///< in the order of faces; empty for other formats
 };
 
 /// A function that is called now and then while a scene is read, with about the bytes that reading

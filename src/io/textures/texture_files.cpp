@@ -2,6 +2,7 @@
 
 #include "io/files/error.h"
 #include "io/files/input_file.h"
+#include "io/files/text_words.h"
 #include "io/textures/picture_checks.h"
 
 #include <cstdlib>
@@ -28,6 +29,7 @@ void* bounded_realloc(void* bytes, std::size_t size) {
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_PNG
+#define STBI_ONLY_TGA
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 16384
 #include <stb_image.h>
@@ -60,8 +62,9 @@ Size size_of(std::string_view bytes, const std::string& place) {
     if (bytes.size() > std::numeric_limits<int>::max() ||
         stbi_info_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &size.width,
                               &size.height, &channels) == 0)
-        throw InputError(place, "expected a PNG or JPEG picture of at most 16384 x 16384 pixels, "
-                                "its header is broken");
+        throw InputError(place,
+                         "expected a PNG, JPEG or TGA picture of at most 16384 x 16384 pixels, "
+                         "its header is broken");
     if (size.width < 1 || size.height < 1 || size.texels() > max_texels)
         throw InputError(place, "expected a picture of at most 67108864 pixels, found " +
                                     std::to_string(size.width) + " x " +
@@ -72,6 +75,15 @@ Size size_of(std::string_view bytes, const std::string& place) {
 /// Returns whether the bytes begin like a PNG or a JPEG file.
 bool is_picture_file(std::string_view bytes) {
     return bytes.starts_with(png_signature) || bytes.starts_with("\xff\xd8\xff");
+}
+
+/// Returns whether the bytes begin with a header of a picture, as far as stb_image knows it.
+bool has_header(std::string_view bytes) {
+    Size size;
+    int channels = 0;
+    return bytes.size() <= std::numeric_limits<int>::max() &&
+           stbi_info_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &size.width,
+                                 &size.height, &channels) != 0;
 }
 
 } // namespace
@@ -91,7 +103,7 @@ Texture decode_texture(std::string_view bytes, const std::string& place) {
         const std::string reason = stbi_failure_reason();
         throw InputError(
             place,
-            "expected a whole PNG or JPEG picture: " +
+            "expected a whole PNG, JPEG or TGA picture: " +
                 (reason == "outofmem" ? "its data unpack to more than its pixels take" : reason));
     }
     const auto width = static_cast<std::uint32_t>(size.width),
@@ -101,9 +113,9 @@ Texture decode_texture(std::string_view bytes, const std::string& place) {
             srgb_to_linear()};
 }
 
-std::shared_ptr<const Texture> TextureFiles::decode(std::string_view bytes,
-                                                    const std::string& key) {
-    if (!is_picture_file(bytes))
+std::shared_ptr<const Texture> TextureFiles::decode(std::string_view bytes, const std::string& key,
+                                                    bool is_tga) {
+    if (!is_picture_file(bytes) && !(is_tga && has_header(bytes)))
         return known_[key] = nullptr;
     if (guard_)
         guard_(bytes_ + static_cast<double>(bytes.size()) +
@@ -118,7 +130,8 @@ std::shared_ptr<const Texture> TextureFiles::read(const std::string& path) {
         return *texture;
     if (!is_input(path, InputKind::regular))
         return known_[path] = nullptr;
-    if (!is_picture_file(read_input(path, InputKind::regular, {}, png_signature.size())))
+    const bool is_tga = small_letters(path).ends_with(".tga");
+    if (!is_tga && !is_picture_file(read_input(path, InputKind::regular, {}, png_signature.size())))
         return known_[path] = nullptr;
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
@@ -126,7 +139,7 @@ std::shared_ptr<const Texture> TextureFiles::read(const std::string& path) {
         throw InputError(path, "expected a picture in a file of at most 1 GiB");
     if (guard_)
         guard_(bytes_ + static_cast<double>(size));
-    return decode(read_input(path, InputKind::regular, {}, max_file), path);
+    return decode(read_input(path, InputKind::regular, {}, max_file), path, is_tga);
 }
 
 } // namespace hemilux

@@ -1,5 +1,5 @@
 #pragma once
-// Textures from PNG and JPEG files, each read once. Their bytes are colours by the sRGB curve.
+// Textures from PNG, JPEG and TGA files, each read once. Their bytes are colours by the sRGB curve.
 
 #include "radiosity/light/textures/texture.h"
 
@@ -30,9 +30,10 @@ class TextureFiles {
     /// Reads a texture; empty where there is no such file or it is of another kind. Throws
     /// InputError for a picture that is broken.
     [[nodiscard]] std::shared_ptr<const Texture> read(const std::string& path);
-    /// Does the same with bytes that are there, whose key is not known.
-    [[nodiscard]] std::shared_ptr<const Texture> decode(std::string_view bytes,
-                                                        const std::string& key);
+    /// Does the same with bytes that are there, whose key is not known. TGA files do not say that
+    /// they are such.
+    [[nodiscard]] std::shared_ptr<const Texture>
+    decode(std::string_view bytes, const std::string& key, bool is_tga = false);
 
   private:
     const std::function<void(double bytes)>& guard_;

@@ -227,3 +227,47 @@ TEST_CASE("the first perspective camera is that of the scene", "[gltf]") {
     CHECK(result.camera->up == Vec3(0, 1, 0));
     CHECK(result.camera->vertical_fov_degrees == Approx(90));
 }
+
+TEST_CASE("a mesh is shown once for each instance, and hidden nodes are not", "[gltf]") {
+    const std::vector<float> moves{0, 0, 0, 5, 0, 0, 0, 5, 0}, sizes{1, 1, 1, 2, 2, 1, 1, 1, 1};
+    const auto text = [&](const std::string& nodes) {
+        return gltf_text(
+            {bytes_of(square), bytes_of(moves), bytes_of(sizes)},
+            R"("accessors":[)" + positions +
+                R"(,{"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"},)"
+                R"({"bufferView":2,"componentType":5126,"count":3,"type":"VEC3"}],)"
+                R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":6}]}],"nodes":)" +
+                nodes);
+    };
+    const ReadResult stools = read(text(
+        R"([{"name":"stools","mesh":0,"scale":[3,1,1],"extensions":{"EXT_mesh_gpu_instancing":)"
+        R"({"attributes":{"TRANSLATION":1,"SCALE":2}}}}])"));
+    CHECK(stools.scene.faces == 6);
+    CHECK(area_vector(stools.scene) == Vec3(0, 0, 3 * (1 + 4 + 1)));
+    CHECK(stools.scene.vertices[4] == Vec3(21, 0, 0)); // the corner (1, 0, 0)
+    CHECK(stools.warnings.empty());
+    REQUIRE(stools.origins.size() == 3);
+    CHECK(stools.origins[2].instance == 2);
+    CHECK(stools.origins[2].first_face == 4);
+
+    const ReadResult hidden = read(text(
+        R"([{"mesh":0},{"extensions":{"KHR_node_visibility":{"visible":false}},"children":[2]},)"
+        R"({"mesh":0}])"));
+    CHECK(hidden.scene.faces == 2);
+    CHECK(hidden.warnings.empty());
+}
+
+TEST_CASE("what a file uses and what is not read has a warning", "[gltf]") {
+    const ReadResult unknown = read(
+        file_of({0, 1, 2}, R"(,"indices":1)", one_node + R"(,"extensionsUsed":["X_bends_light"])"));
+    CHECK(warns_of(unknown, "uses extensions that are not read: X_bends_light"));
+
+    const ReadResult webp = read(file_of(
+        {0, 1, 2}, R"(,"indices":1,"material":0)",
+        one_node + R"(,"extensionsRequired":["EXT_texture_webp"],"images":[{"uri":"a.webp"}],)"
+                   R"("textures":[{"extensions":{"EXT_texture_webp":{"source":0}}}],"materials":)"
+                   R"([{"pbrMetallicRoughness":{"metallicFactor":0,"baseColorFactor":)"
+                   R"([0.25,0.5,0.5,1],"baseColorTexture":{"index":0}}}])"));
+    CHECK(warns_of(webp, "a texture is not found, or neither PNG nor JPEG"));
+    CHECK(webp.scene.materials[0].reflectance == Vec3(.25, .5, .5));
+}

@@ -54,7 +54,11 @@ TEST_CASE("a closed box is described in full", "[inspect]") {
     CHECK(info.emitted_power.z == Approx(2).epsilon(1e-14));
     CHECK(info.open_edges == 0);
     CHECK(info.nonmanifold_edges == 0);
-    CHECK(info.emitters == std::vector<std::string>{"lamp"});
+    REQUIRE(info.emitters.size() == 1);
+    CHECK(info.emitters[0].name == "lamp");
+    CHECK(info.emitters[0].emission == Vec3(3, 2, 1));
+    CHECK(info.emitters[0].power == info.emitted_power);
+    CHECK_FALSE(info.emitters[0].both_sides);
     CHECK(info.bad_reflectances.empty());
 }
 

@@ -52,14 +52,13 @@ TEST_CASE("reflectance and emission are read, all else is passed over", "[mtl]")
 
 TEST_CASE("colours that are none are refused with file and line", "[mtl]") {
     for (const std::string colour :
-         {"Kd", "Kd .1 .2", "Kd -.1", "Kd .1 .2 -1", "Kd nan", "Ke inf", "Ke 1e200", "Kd 0,5",
-          "Kd spectral file.rfl 1", "Kd xyz .1 .2 .3"}) {
+         {"Kd", "Kd .1 .2", "Kd -.1", "Kd .1 .2 -1", "Kd nan", "Ke inf", "Ke 1e200", "Kd 0,5"}) {
         const TemporaryFolder folder;
         const std::string path = folder.write("m.mtl", "newmtl a\n\n" + colour + "\n");
         INFO(colour);
         CHECK_THROWS_WITH(read_mtl(path), Catch::StartsWith(path + ":3: expected 1 or 3 numbers"));
     }
-    CHECK_THROWS_AS(read("newmtl # no name\n"), InputError);
+    CHECK(read("newmtl # no name\n").at(0).name == unnamed_material);
     CHECK(read("").empty());
 }
 
@@ -94,4 +93,33 @@ TEST_CASE("textures that are missing are one warning", "[mtl]") {
     CHECK(textures_of(result.scene).of_material.empty());
     CHECK(result.scene.materials[0].reflectance == Vec3(0.5));
     CHECK(result.scene.materials[1].reflectance == Vec3(0.1));
+}
+
+TEST_CASE("what a surface is besides diffuse is kept by its statement", "[mtl]") {
+    const auto of = [](const std::string& statements) {
+        return read("newmtl a\n" + statements).at(0);
+    };
+    CHECK(of("d 0.1\nillum 4\n").transparent == "d 0.1");
+    CHECK(of("Tr 0.3\n").transparent == "Tr 0.3");
+    CHECK(of("d 1\nTr 1\n").transparent.empty()); // exporters disagree on Tr
+    CHECK(of("Tr 1\nd 1\n").transparent.empty());
+    CHECK(of("map_d leaf.png\n").transparent == "map_d");
+    CHECK(of("illum 7\n").transparent == "illum 7");
+    CHECK(of("illum 4\nTf 1 1 1\n").transparent.empty());
+    CHECK(of("illum 3\n").mirror == "illum 3");
+    CHECK(of("Pm 0.9\n").mirror == "Pm 0.9");
+    CHECK(of("Pm 0.1\nNs 5\nillum 2\nd 1\n").mirror.empty());
+}
+
+TEST_CASE("what other readers take is read, with a word", "[mtl]") {
+    const TemporaryFolder folder;
+    const MtlFile file = read_mtl(folder.write(
+        "m.mtl", "newmtl\nKd xyz .1 .2 .3\nmap_Kd a b.png -s 2 2 1\nKe spectral f.rfl\n"));
+    REQUIRE(file.materials.size() == 1);
+    CHECK_FALSE(file.materials[0].reflectance);
+    CHECK(file.materials[0].reflectance_map->name == "a b.png");
+    REQUIRE(file.warnings.size() == 3);
+    CHECK(file.warnings[0].starts_with("1: a material without a name"));
+    CHECK(file.warnings[1] == "2: Kd as a spectrum or in XYZ is not read");
+    CHECK(file.warnings[2] == "4: Ke as a spectrum or in XYZ is not read");
 }

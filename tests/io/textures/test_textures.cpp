@@ -108,7 +108,7 @@ TEST_CASE("broken pictures are refused, other kinds are reported", "[textures]")
     (void)folder.write("m.mtl", "newmtl m\nmap_Kd t.tga\n");
     const ReadResult result = read_obj(folder.write("s.obj", square + "f 1/1 2/2 3/3\n"));
     REQUIRE(result.warnings.size() == 1);
-    CHECK(result.warnings[0].find("1 texture is not found, or neither PNG nor JPEG") !=
+    CHECK(result.warnings[0].find("1 texture is not found, or neither PNG, JPEG nor TGA") !=
           std::string::npos);
     CHECK(Mesh(result.scene).material(0u).reflectance == Vec3(.5));
 }
@@ -134,4 +134,21 @@ TEST_CASE("texture coordinates that are no numbers are reported", "[textures]") 
     REQUIRE(result.warnings.size() == 1);
     CHECK(result.warnings[0].find("2 texture coordinates are no numbers within 1e6") !=
           std::string::npos);
+}
+
+TEST_CASE("TGA is read by the extension of its name", "[texture]") {
+    const test::TemporaryFolder folder;
+    std::string tga(18, '\0');
+    tga[2] = 2;  // colours, not packed
+    tga[12] = 2; // 2 x 1 texels of 24 bits
+    tga[14] = 1;
+    tga[16] = 24;
+    tga += std::string("\x00\x00\xff\xff\x00\x00", 6); // red, then blue
+    const std::function<void(double)> guard;
+    TextureFiles files(guard);
+    const auto texture = files.read(folder.write("a.TGA", tga));
+    REQUIRE(texture);
+    CHECK(texture->mean() == Vec3(.5, 0, .5));
+    CHECK_FALSE(files.read(folder.write("a.bin", tga)));
+    CHECK_FALSE(files.read(folder.write("b.tga", tga.substr(0, 9))));
 }

@@ -26,6 +26,10 @@ std::string_view chunk_at(std::string_view bytes, std::size_t at, const std::str
     return bytes.substr(at + chunk_header, length);
 }
 
+std::uint32_t word_at_or_0(std::string_view bytes, std::size_t at) {
+    return at + 4 <= bytes.size() ? word_at(bytes, at) : 0;
+}
+
 void split_binary(Container& file, const std::string& path) {
     std::string_view bytes = file.content;
     if (bytes.size() < header + chunk_header)
@@ -45,6 +49,12 @@ void split_binary(Container& file, const std::string& path) {
     if (word_at(bytes, header + 4) != json_chunk)
         throw InputError(path, at_byte(header + 4) + "expected the chunk JSON");
     file.json = chunk_at(bytes, header, path);
+    if (file.json.size() % 4 != 0 &&
+        word_at_or_0(bytes, header + chunk_header + file.json.size() + 4) == binary_chunk)
+        throw InputError(path, at_byte(header) +
+                                   "expected a JSON chunk that is padded to a multiple of 4 bytes, "
+                                   "found " +
+                                   std::to_string(file.json.size()));
     // Chunks begin at multiples of four bytes; those of other kinds are passed over.
     for (std::size_t at = header + chunk_header + (file.json.size() + 3) / 4 * 4;
          at < bytes.size();) {

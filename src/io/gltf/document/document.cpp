@@ -7,20 +7,31 @@ namespace {
 
 /// The extensions that are read, and those without which the geometry and its diffuse light are the
 /// same.
-constexpr std::array<std::string_view, 14> known_extensions{"KHR_lights_punctual",
+constexpr std::array<std::string_view, 21> known_extensions{"EXT_mesh_gpu_instancing",
+                                                            "KHR_animation_pointer",
+                                                            "KHR_lights_punctual",
                                                             "KHR_materials_anisotropy",
                                                             "KHR_materials_clearcoat",
                                                             "KHR_materials_dispersion",
                                                             "KHR_materials_emissive_strength",
                                                             "KHR_materials_ior",
                                                             "KHR_materials_iridescence",
+                                                            "KHR_materials_pbrSpecularGlossiness",
                                                             "KHR_materials_sheen",
                                                             "KHR_materials_specular",
                                                             "KHR_materials_transmission",
                                                             "KHR_materials_unlit",
+                                                            "KHR_materials_variants",
                                                             "KHR_materials_volume",
                                                             "KHR_mesh_quantization",
-                                                            "KHR_texture_transform"};
+                                                            "KHR_node_visibility",
+                                                            "KHR_texture_transform",
+                                                            "KHR_xmp_json_ld",
+                                                            "MOZ_lightmap"};
+
+/// Those of textures that are not read; colours are their factors then.
+constexpr std::array<std::string_view, 3> texture_extensions{"EXT_texture_avif", "EXT_texture_webp",
+                                                             "KHR_texture_basisu"};
 
 void check_version(const JsonValue& root) {
     const JsonValue asset = root.at("asset");
@@ -33,9 +44,22 @@ void check_version(const JsonValue& root) {
 
 void check_extensions(const JsonValue& root) {
     for (const JsonValue& required : root.elements_of("extensionsRequired"))
-        if (std::ranges::find(known_extensions, required.text()) == known_extensions.end())
+        if (std::ranges::find(known_extensions, required.text()) == known_extensions.end() &&
+            std::ranges::find(texture_extensions, required.text()) == texture_extensions.end())
             required.fail("the file requires the extension \"" + required.text() +
                           "\", which is not read; expected a file exported without it");
+}
+
+/// Returns the extensions that the file uses and that are not known, but for textures, of which
+/// each that is missing is counted.
+std::vector<std::string> unread_extensions(const JsonValue& root) {
+    std::vector<std::string> names;
+    for (const JsonValue& used : root.elements_of("extensionsUsed"))
+        if (const std::string name = used.text();
+            std::ranges::find(known_extensions, name) == known_extensions.end() &&
+            std::ranges::find(texture_extensions, name) == texture_extensions.end())
+            names.push_back(name);
+    return names;
 }
 
 Primitive read_primitive(const JsonValue& value, const Document& document) {
@@ -115,6 +139,7 @@ Document read_document(const JsonValue& root) {
     check_version(root);
     check_extensions(root);
     Document document;
+    document.unread_extensions = unread_extensions(root);
     read_buffers(root, document);
     read_materials(root, document);
     read_meshes(root, document);

@@ -94,6 +94,13 @@ struct Node {
     std::vector<std::size_t> children;
     Index mesh, camera, light;
     bool has_skin = false;
+    bool visible = true; ///< else it and all below are hidden (KHR_node_visibility)
+    /// The accessors of EXT_mesh_gpu_instancing: the mesh is shown once for each of their elements,
+    /// placed by it before the node's own transform.
+    struct Instancing {
+        Index translation, rotation, scale;
+    };
+    std::optional<Instancing> instancing;
 };
 
 /// A light of KHR_lights_punctual, in photometric units.
@@ -118,7 +125,8 @@ struct ImageInfo {
 /// The wrapping of a texture: 10497, 33071 and 33648 in the file.
 enum class Wrapping : std::uint8_t { repeat, clamp, mirror };
 struct TextureSource {
-    Index image;
+    Index image;                   ///< none: of a kind that is not read, or missing
+    bool is_of_other_kind = false; ///< the file has it as WebP, KTX2 or AVIF
     Wrapping wrap_s = Wrapping::repeat, wrap_t = Wrapping::repeat;
 };
 
@@ -132,6 +140,8 @@ struct Document {
     std::vector<std::size_t> roots; ///< roots of the scene that is shown
     std::vector<Light> lights;
     std::vector<CameraInfo> cameras;
+    std::vector<std::string>
+        unread_extensions; ///< that the file uses and that may change what it shows
     /// Images and textures that no material in use refers to may be wrong: they are not looked at.
     std::vector<ImageInfo> images;
     std::vector<TextureSource> textures;

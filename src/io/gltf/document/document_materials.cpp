@@ -84,6 +84,9 @@ void read_textures(const JsonValue& root, Document& document) {
         TextureSource& texture = document.textures.emplace_back();
         if (const auto source = value.find("source"))
             texture.image = source->whole(0, no_limit);
+        for (const char* const kind :
+             {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"})
+            texture.is_of_other_kind |= value.extension(kind).has_value();
         if (const Index sampler = value.index_in("sampler", samplers.size(), "samplers")) {
             texture.wrap_s = wrapping_of(samplers[*sampler], "wrapS");
             texture.wrap_t = wrapping_of(samplers[*sampler], "wrapT");

@@ -42,6 +42,15 @@ Node read_node(const JsonValue& value, std::size_t nodes, const Document& docume
     node.has_skin = value.find("skin").has_value();
     if (const auto light = value.extension("KHR_lights_punctual"))
         node.light = light->at("light").index(document.lights.size(), "lights");
+    if (const auto visibility = value.extension("KHR_node_visibility"))
+        node.visible = visibility->flag_or("visible", true);
+    if (const auto instancing = value.extension("EXT_mesh_gpu_instancing")) {
+        const JsonValue attributes = instancing->at("attributes");
+        const auto accessor = [&](const char* name) {
+            return attributes.index_in(name, document.accessors.size(), "accessors");
+        };
+        node.instancing = {accessor("TRANSLATION"), accessor("ROTATION"), accessor("SCALE")};
+    }
     return node;
 }
 

@@ -68,9 +68,10 @@ void FinalGather::add_rays(const SurfacePoint& point, std::uint64_t seed, std::s
                      {.seed = hash_words({seed, e, k}),
                       .place = place,
                       .share = Vec3(1.0 / random_rays),
-                      .sees_emission = !by_shadow_rays});
+                      .sees_emission = !by_shadow_rays,
+                      .only_reflected = only_reflected_});
         }
-        if (by_shadow_rays)
+        if (by_shadow_rays && !only_reflected_)
             emitters.add_rays(point, rays.weighed, numbers, 0, shadow_rays, place, rays.shadow);
     }
 }

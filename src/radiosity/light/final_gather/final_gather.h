@@ -47,6 +47,8 @@ class FinalGather {
     /// those of one sequence, so that more rounds reduce the error faster than independent
     /// estimates would.
     void set_rounds(unsigned rounds) { rounds_ = rounds; }
+    /// Leaves out what arrives straight from where it is emitted.
+    void set_only_reflected(bool only) { only_reflected_ = only; }
     /// Returns the number of rays traced so far.
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
@@ -57,6 +59,7 @@ class FinalGather {
     GatherPaths paths_;
     unsigned random_rays_, shadow_rays_;
     unsigned rounds_ = 1;
+    bool only_reflected_ = false;
     std::atomic<std::uint64_t> rays_{0};
 };
 

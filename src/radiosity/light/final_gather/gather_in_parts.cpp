@@ -29,6 +29,8 @@ std::vector<EmitterLight> GatherInParts::direct(std::span<const SurfacePoint> po
                                                 std::span<const GatherSamples> samples,
                                                 Shadows shadows) const {
     std::vector<EmitterLight> found(points.size());
+    if (only_reflected_)
+        return found;
     WeighedEmitters weighed;
     ShadowRays<LightAtPlace> rays;
     const auto trace = [&] {
@@ -99,7 +101,7 @@ void GatherInParts::read_patches(std::span<const SurfacePoint> points, const Ray
             const Patch& on = mesh_.patches()[patch];
             const Colours here = colours_at(mesh_, on, point);
             const SurfaceLight::Irradiance arriving = light_.irradiance(patch, point);
-            Vec3 sent = emitters_.contains(patch) ? Vec3(0.0) : here.emission;
+            Vec3 sent = only_reflected_ || emitters_.contains(patch) ? Vec3(0.0) : here.emission;
             if (hit.t < arriving.near) {
                 light.irradiance += sent / rays_there;
                 paths_.begin_at({point, on.normal, on.facet, patch},

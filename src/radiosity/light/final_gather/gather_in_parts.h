@@ -44,10 +44,13 @@ struct IndirectLight {
 
 class GatherInParts {
   public:
-    /// `light` is what surfaces send. All that is referred to must outlive this object.
-    GatherInParts(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light)
+    /// `light` is what surfaces send. All that is referred to must outlive this object. With
+    /// `only_reflected` nothing counts that arrives straight from where it is emitted.
+    GatherInParts(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
+                  bool only_reflected = false)
         : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh),
-          bright_(mesh, light.of_patches().radiosity, emitters_), paths_(mesh, tracer, light) {}
+          bright_(mesh, light.of_patches().radiosity, emitters_), paths_(mesh, tracer, light),
+          only_reflected_(only_reflected) {}
 
     /// Returns the light of emitters at each point by its own samples, on the calling thread, with
     /// a shadow ray for each. If shadows are left out, no ray is traced, and nothing arrives.
@@ -83,6 +86,7 @@ class GatherInParts {
     ReachedEmitters emitters_;
     BrightPatches bright_;
     GatherPaths paths_;
+    bool only_reflected_;
 };
 
 } // namespace hemilux

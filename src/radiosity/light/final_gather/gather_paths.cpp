@@ -67,7 +67,7 @@ bool GatherPaths::end_ray(const PathRays::State& ray, const Met& met, unsigned b
                           std::span<Vec3> found) const {
     const bool near = met.here.reflectance != Vec3(0.0) && is_near(met, bounce);
     Vec3 light = near ? Vec3(0.0) : met.here.reflectance * met.arriving.value;
-    if (ray.sees_emission || !emitters_.contains(met.patch))
+    if (!ray.only_reflected && (ray.sees_emission || !emitters_.contains(met.patch)))
         light += met.here.emission;
     found[ray.place] += ray.share * light;
     return near;
@@ -89,6 +89,7 @@ void GatherPaths::add_rays(const SurfacePoint& at, const PathRays::State& state,
     PathRays::State then = state;
     then.seed = hash_words({state.seed, 1});
     then.sees_emission = !by_shadow_ray;
+    then.only_reflected = false;
     next.add(further, then);
     if (by_shadow_ray)
         emitters_.add_ray(at, next.weighed, rng, state.share, state.place, next.shadow);

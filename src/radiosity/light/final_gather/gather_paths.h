@@ -21,10 +21,11 @@ class Mesh;
 struct PathRays {
     /// This is what a random ray carries.
     struct State {
-        std::uint64_t seed;        ///< of what follows from it
-        std::uint32_t place;       ///< of the estimate
-        Vec3 share;                ///< of what it meets, that counts in the estimate
-        bool sees_emission = true; ///< emitters are left to it
+        std::uint64_t seed;          ///< of what follows from it
+        std::uint32_t place;         ///< of the estimate
+        Vec3 share;                  ///< of what it meets, that counts in the estimate
+        bool sees_emission = true;   ///< emitters are left to it
+        bool only_reflected = false; ///< what is emitted where it ends does not count
     };
     std::vector<Ray> random;
     std::vector<State> states; ///< of each ray at random

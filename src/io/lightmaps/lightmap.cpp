@@ -1,4 +1,4 @@
-#include "io/meshes/lightmap.h"
+#include "io/lightmaps/lightmap.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // The charts of a lightmap and what they show.
-#include "io/meshes/lightmap.h"
+#include "io/lightmaps/lightmap.h"
 #include "io/results/smooth.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
@@ -109,7 +109,7 @@ TEST_CASE(
         const ChartCorners corners = divide_by_charts(mesh, classes, charts);
         const std::vector<Vec3> light = light_of(corners);
         const Image picture = lightmap(charts, corners, light, 1024);
-        CHECK(charts.size() == mesh.scene().facets.size());
+        CHECK(charts.size() < 20);
 
         const auto places = seams(mesh, corners);
         REQUIRE(places.size() >= 4 * 3 * charts.size() / 2);
@@ -137,5 +137,5 @@ TEST_CASE("the edges of a rectangle are exact in a lightmap") {
 }
 
 TEST_CASE("a lightmap too small for its charts is refused") {
-    CHECK_THROWS_AS(find_charts(Mesh(sphere(2, 1, 0.5, 1)), 64), LightmapTooSmall);
+    CHECK_THROWS_AS(find_charts(Mesh(sphere(2, 1, 0.5, 1)), 16), LightmapTooSmall);
 }

@@ -1,0 +1,121 @@
+// The options of `hemilux bake`.
+
+#include "app/command_line/option_groups.h"
+#include "app/command_line/option_kinds.h"
+#include "app/command_line/options.h"
+#include "app/command_line/solving_options.h"
+#include "app/settings/exit_code.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace hemilux {
+
+namespace {
+
+constexpr const char* bake_examples = R"(Examples:
+  hemilux bake room.glb -o lit.glb
+  hemilux bake room.glb -o lit.glb --lightmap 2048 --error 1%
+  hemilux bake room.gltf -o preview.glb --bind unlit
+)";
+
+/// The choice of texture coordinates.
+struct CoordinatesChoice {
+    std::optional<std::size_t> set; ///< empty: an atlas of our own
+};
+
+std::optional<CoordinatesChoice> coordinates_from(const std::string& text) {
+    constexpr std::uint64_t max_set = 15;
+    if (text == "new")
+        return CoordinatesChoice{};
+    const auto set = parse_whole(text);
+    if (!set || *set > max_set)
+        return std::nullopt;
+    return CoordinatesChoice{static_cast<std::size_t>(*set)};
+}
+
+void add_light_options(Command command, SolveSettings& settings,
+                       const std::shared_ptr<std::optional<Bake>>& bake) {
+    add_choice<Bake>(command, "--bake",
+                     {{Bake::irradiance, name_of(Bake::irradiance)},
+                      {Bake::indirect, name_of(Bake::indirect)},
+                      {Bake::radiosity, name_of(Bake::radiosity)}},
+                     "the light of texels: irradiance: what arrives, which viewers multiply by "
+                     "their materials; indirect: of that what was reflected before, for viewers "
+                     "that light by lamps, too; radiosity: what surfaces send, with their colours "
+                     "[irradiance; radiosity for --bind unlit]",
+                     [bake](Bake value) { *bake = value; });
+    add_choice(
+        command, "--bind", settings.file_bake.binding,
+        {{Binding::lightmap, "lightmap"}, {Binding::unlit, "unlit"}, {Binding::texture, "texture"}},
+        "how materials refer to the light: lightmap: by MOZ_lightmap; unlit: as an unlit "
+        "base colour that any viewer shows; texture: not at all [lightmap]");
+}
+
+void add_place_options(Command command, SolveSettings& settings) {
+    FileBakeSettings& bake = settings.file_bake;
+    add_parsed(command, "--lightmap-uv", "N|new",
+               "the texture coordinates of the file, TEXCOORD_N; new: an atlas is added [1 where "
+               "all objects have it in [0,1] without overlaps, else new]",
+               "a number from 0 to 15, or new", coordinates_from,
+               [&bake](const CoordinatesChoice& choice) {
+                   bake.set = choice.set;
+                   bake.new_set = !choice.set;
+               });
+    const Option size = add_whole<int>(command, "--lightmap", settings.lightmap, 16,
+                                       SolveSettings::max_lightmap, "texels along a side [1024]");
+    add_number(command, "--texels-per-metre", "X", bake.texels_per_metre, positive,
+               "as many texels as that needs, in an atlas of our own")
+        .excludes(size);
+    add_whole<int>(command, "--margin", bake.margin, 1, FileBakeSettings::max_margin,
+                   "texels around charts that have their light, too [2]");
+}
+
+} // namespace
+
+Command add_bake_command(Arguments& program, SolveSettings& settings) {
+    settings.method = &method_of(Role::standard);
+    settings.file_bake.asked = true;
+    settings.bake = Bake::irradiance;
+    const auto bake = std::make_shared<std::optional<Bake>>();
+    const Command command = program.add_command(
+        "bake", "solve a glTF scene, write the same file with its light as a lightmap");
+    const Command scene = command.under(scene_group), outputs = command.under(output_group);
+    add_scene_options(command, settings.scene);
+    add_memory_option(scene, settings.scene);
+    add_random_options(command.under(method_group), settings.options);
+    add_stop_options(command.under("Stop at the first that is met"), settings.stop);
+    add_path(outputs, "-o,--output", "FILE.glb",
+             "the scene's file with its light; the light itself beside it as FILE.lightmap.exr, "
+             "linear floats [W/m2]",
+             ".glb",
+             [&settings](const std::string& path) {
+                 settings.outputs = {{path, OutputKind::glb}};
+             })
+        .required();
+    outputs.add_text("--stats", "FILE", settings.statistics, "statistics of the run as JSON");
+    add_light_options(outputs, settings, bake);
+    add_place_options(outputs, settings);
+    add_whole<unsigned>(outputs, "--gather", settings.gather, 1, SolveSettings::max_gather,
+                        "rays that gather light at a texel, more at edges [16, or as many as "
+                        "--error needs]");
+    add_exposure_options(outputs, settings.view);
+    add_verbosity_options(command, settings.verbosity);
+    command.after_parsing([&settings, bake] {
+        const Binding binding = settings.file_bake.binding;
+        settings.bake =
+            bake->value_or(binding == Binding::unlit ? Bake::radiosity : Bake::irradiance);
+        if (binding == Binding::lightmap && settings.bake == Bake::radiosity)
+            throw UsageError("--bake radiosity has the colours of surfaces in it, which viewers of "
+                             "lightmaps multiply by; add --bind unlit or --bind texture");
+        if (binding == Binding::unlit && settings.bake != Bake::radiosity)
+            throw UsageError("--bind unlit shows what surfaces send; it needs --bake radiosity");
+        if (!settings.lightmap)
+            settings.lightmap = FileBakeSettings::default_size;
+    });
+    command.end_help_with(std::string(bake_examples) + exit_codes);
+    return command;
+}
+
+} // namespace hemilux

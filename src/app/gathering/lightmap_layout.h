@@ -1,0 +1,41 @@
+#pragma once
+// Where surfaces lie in the lightmap of a run.
+
+#include "app/settings/settings.h"
+#include "io/gltf/lit_source.h"
+#include "io/lightmaps/texel_map.h"
+#include "radiosity/paper/solution/solution.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace hemilux {
+
+struct LightmapLayout {
+    std::vector<PlacedTriangle> triangles; ///< places in texels
+    int size = 0;                          ///< texels along a side
+    int margin = 0;                        ///< texels around charts that are filled
+};
+
+/// The scene's own file, and its lightmap.
+struct FileLightmap {
+    std::unique_ptr<gltf::LitSource> source;
+    LightmapLayout layout;
+    std::size_t set = 0; ///< of texture coordinates
+    bool is_new = false; ///< the set is not of the file
+};
+
+/// Finds the layout of `bake`: the texture coordinates that the file has for it, or an atlas of our
+/// own, which is logged with what is wrong with those of the file. Throws UsageError for a scene
+/// that is no glTF file or no file at all, InputError for a set asked for that cannot be used, and
+/// std::runtime_error where the lightmap is too small or needs more memory than it may.
+[[nodiscard]] FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
+                                            std::vector<PrimitiveOrigin> origins);
+
+/// Lets the triangles of each chart show the brighter side of two-sided facets, by the light of the
+/// patches: a place in a lightmap has one light, and viewers show it on both sides.
+void show_brighter_sides(const Mesh& mesh, const Solution& solution,
+                         std::vector<PlacedTriangle>& triangles);
+
+} // namespace hemilux

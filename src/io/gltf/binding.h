@@ -1,0 +1,12 @@
+#pragma once
+// The ways in which materials of a glTF file refer to its lightmap.
+
+namespace hemilux {
+
+enum class Binding {
+    lightmap, ///< MOZ_lightmap: the picture is irradiance, linear, times `intensity`
+    unlit,    ///< KHR_materials_unlit with the picture as base colour: what a screen shows
+    texture   ///< texture and coordinates alone
+};
+
+} // namespace hemilux

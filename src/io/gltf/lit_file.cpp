@@ -1,0 +1,415 @@
+#include "io/gltf/lit_file.h"
+
+#include "io/files/atomic_file.h"
+#include "io/files/error.h"
+#include "io/files/input_file.h"
+#include "io/files/little_endian.h"
+#include "io/gltf/document/uri.h"
+#include "io/gltf/instances.h"
+#include "io/gltf/scene_meshes.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <utility>
+
+namespace hemilux {
+namespace gltf {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int vertex_target = 34962, index_target = 34963; // names of OpenGL's constants
+constexpr const char* instancing_extension = "EXT_mesh_gpu_instancing";
+constexpr int float_component = 5126, uint_component = 5125;
+constexpr int linear_filter = 9729, clamp_to_edge = 33071, triangles_mode = 4;
+
+class Writer {
+  public:
+    Writer(LitSource& source, const LightmapOfFile& lightmap)
+        : source_(source), lightmap_(lightmap), root_(Json::parse(source.container().json)),
+          meshes_of_file_(root_.value("meshes", Json::array())) {}
+
+    /// Makes the JSON and the binary chunk.
+    void make() {
+        join_buffers();
+        embed_pictures();
+        for (const AtlasCoordinates& coordinates : lightmap_.coordinates)
+            add_coordinates(coordinates);
+        forget_instancing();
+        const std::size_t texture = add_texture();
+        if (lightmap_.binding != Binding::texture)
+            bind(texture);
+        root_["buffers"][0]["byteLength"] = binary_.size();
+    }
+    void write(const std::string& path) const;
+
+  private:
+    /// Returns an array of the document, which is made where there is none.
+    Json& array_of(const char* name);
+    void use_extension(const char* name);
+    /// Returns the number of an accessor that an attribute names.
+    [[nodiscard]] std::size_t accessor_of(const Json& attribute, const PrimitiveOrigin& of) const;
+    void join_buffers();
+    void embed_pictures();
+    std::size_t add_view(std::string_view bytes);
+    std::size_t add_texture();
+    void bind(std::size_t texture);
+    void add_coordinates(const AtlasCoordinates& coordinates);
+    Json& primitive_of(const PrimitiveOrigin& origin);
+    void give_own_mesh(const PrimitiveOrigin& origin);
+    void forget_instancing();
+    std::size_t longer_copy(std::size_t accessor, const std::vector<std::uint32_t>& further);
+    std::size_t add_places(const std::vector<glm::vec2>& places);
+    std::size_t add_indices(const AtlasCoordinates& coordinates);
+    void pad() { binary_.resize((binary_.size() + 3) / 4 * 4, '\0'); }
+
+    LitSource& source_;
+    const LightmapOfFile& lightmap_;
+    Json root_;
+    const Json meshes_of_file_;
+    std::string binary_;
+    using Shown = std::pair<std::size_t, std::optional<std::size_t>>; ///< node, number of instance
+    std::map<std::size_t, std::size_t> node_of_mesh_;                 ///< that a mesh is kept for
+    std::map<Shown, std::size_t> mesh_of_; ///< where it is another one than in the file
+};
+
+Json& Writer::array_of(const char* name) {
+    Json& member = root_[name];
+    if (member.is_null())
+        member = Json::array();
+    if (!member.is_array())
+        throw InputError(source_.path(), std::string("/") + name + ": expected an array");
+    return member;
+}
+
+void Writer::use_extension(const char* name) {
+    Json& used = array_of("extensionsUsed");
+    if (std::ranges::find(used, name) == used.end())
+        used.push_back(name);
+}
+
+std::size_t Writer::accessor_of(const Json& attribute, const PrimitiveOrigin& of) const {
+    const std::size_t count = source_.document().accessors.size();
+    const std::size_t number =
+        attribute.is_number_unsigned() ? attribute.get<std::size_t>() : count;
+    const auto vertices = [&] { return source_.document().accessors[number].count; };
+    const Index& position = source_.primitive_of(of).position;
+    if (number >= count || vertices() < source_.document().accessors[*position].count)
+        throw InputError(source_.path(), place_of(of.mesh, of.primitive) +
+                                             "/attributes: expected accessors with an element for "
+                                             "each vertex");
+    return number;
+}
+
+/// The buffers follow each other in one.
+void Writer::join_buffers() {
+    const Document& document = source_.document();
+    std::vector<std::size_t> begin;
+    for (std::size_t b = 0; b < document.buffers.size(); ++b) {
+        begin.push_back(binary_.size());
+        binary_ += source_.buffers().content(b);
+        pad();
+    }
+    Json& buffers = array_of("buffers");
+    if (buffers.empty())
+        buffers.push_back(Json::object());
+    const auto move = [&](Json& view) {
+        if (!view.contains("buffer") || !view["buffer"].is_number_unsigned())
+            return;
+        const auto b = view["buffer"].get<std::size_t>();
+        if (b == 0 || b >= begin.size())
+            return;
+        view["byteOffset"] = view.value("byteOffset", std::size_t{0}) + begin[b];
+        view["buffer"] = 0;
+    };
+    for (Json& view : array_of("bufferViews")) {
+        move(view);
+        if (view.contains("extensions") && view["extensions"].is_object())
+            for (Json& extension : view["extensions"]) // as of compressed views
+                if (extension.is_object())
+                    move(extension);
+    }
+    buffers.erase(buffers.begin() + 1, buffers.end());
+    buffers[0].erase("uri");
+}
+
+/// Pictures beside the file would be lost where the new file lies elsewhere.
+void Writer::embed_pictures() {
+    if (!root_.contains("images"))
+        return;
+    for (std::size_t i = 0; i < root_["images"].size(); ++i) {
+        Json& image = root_["images"][i];
+        if (!image.contains("uri") || image["uri"].get<std::string>().starts_with("data:"))
+            continue;
+        const UriContent content = content_of_uri(image["uri"].get<std::string>(), source_.path(),
+                                                  "/images/" + std::to_string(i) + "/uri");
+        if (std::error_code error; !std::filesystem::is_regular_file(content.file, error))
+            continue;
+        const std::string bytes = read_input(content.file, InputKind::regular, {});
+        const std::string_view name(content.file);
+        image["bufferView"] = add_view(bytes);
+        if (!image.contains("mimeType"))
+            image["mimeType"] = bytes.starts_with("\x89PNG") ? "image/png"
+                                : name.ends_with(".webp")    ? "image/webp"
+                                : name.ends_with(".ktx2")    ? "image/ktx2"
+                                                             : "image/jpeg";
+        if (!image.contains("name"))
+            image["name"] = std::filesystem::path(content.file).stem().string();
+        image.erase("uri");
+    }
+}
+
+std::size_t Writer::add_view(std::string_view bytes) {
+    Json& views = array_of("bufferViews");
+    views.push_back({{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}});
+    binary_ += bytes;
+    pad();
+    return views.size() - 1;
+}
+
+std::size_t Writer::add_texture() {
+    const std::size_t view = add_view(lightmap_.png);
+    Json& images = array_of("images");
+    images.push_back({{"name", "lightmap"}, {"mimeType", "image/png"}, {"bufferView", view}});
+    Json& samplers = array_of("samplers");
+    samplers.push_back({{"magFilter", linear_filter},
+                        {"minFilter", linear_filter},
+                        {"wrapS", clamp_to_edge},
+                        {"wrapT", clamp_to_edge}});
+    Json& textures = array_of("textures");
+    Json extras{{"bake", lightmap_.bake},
+                {"texCoord", lightmap_.set},
+                {"intensity", lightmap_.intensity},
+                {"exposure", lightmap_.exposure}};
+    if (!lightmap_.command.empty())
+        extras["command"] = lightmap_.command;
+    textures.push_back({{"name", "lightmap"},
+                        {"sampler", samplers.size() - 1},
+                        {"source", images.size() - 1},
+                        {"extras", {{"hemilux", extras}}}});
+    return textures.size() - 1;
+}
+
+/// Binds the texture to the materials of all primitives that were read. Those without a material
+/// get one that looks the same.
+void Writer::bind(std::size_t texture) {
+    const bool is_unlit = lightmap_.binding == Binding::unlit;
+    std::set<std::size_t> used;
+    std::optional<std::size_t> plain;
+    for (const PrimitiveOrigin& origin : source_.origins()) {
+        Json& primitive = primitive_of(origin);
+        if (!primitive["attributes"].contains("TEXCOORD_" + std::to_string(lightmap_.set)))
+            continue;
+        if (!primitive.contains("material")) {
+            Json& materials = array_of("materials");
+            if (!plain) {
+                plain = materials.size();
+                materials.push_back({{"name", "default"}});
+            }
+            primitive["material"] = *plain;
+        }
+        used.insert(primitive["material"].get<std::size_t>());
+    }
+    for (const std::size_t m : used) {
+        Json& material = root_["materials"][m];
+        const Json info{{"index", texture}, {"texCoord", lightmap_.set}};
+        if (is_unlit) {
+            Json& surface = material["pbrMetallicRoughness"];
+            surface["baseColorTexture"] = info;
+            surface["baseColorFactor"] = {1, 1, 1, 1};
+            for (const char* const lit : {"emissiveFactor", "emissiveTexture", "normalTexture",
+                                          "occlusionTexture", "extensions"})
+                material.erase(lit);
+            material["extensions"]["KHR_materials_unlit"] = Json::object();
+        } else {
+            Json& extension = material["extensions"]["MOZ_lightmap"];
+            extension = info;
+            extension["intensity"] = lightmap_.intensity;
+        }
+    }
+    if (!used.empty())
+        use_extension(is_unlit ? "KHR_materials_unlit" : "MOZ_lightmap");
+}
+
+/// Returns the primitive that is written for an origin.
+Json& Writer::primitive_of(const PrimitiveOrigin& origin) {
+    std::size_t mesh = origin.mesh;
+    if (const auto found = mesh_of_.find({origin.node, origin.instance}); found != mesh_of_.end())
+        mesh = found->second;
+    return root_["meshes"][mesh]["primitives"][origin.primitive];
+}
+
+/// Gives what shows a mesh one of its own, but for the first node that shows it: their light
+/// differs. Instances of a node become nodes below it.
+void Writer::give_own_mesh(const PrimitiveOrigin& origin) {
+    if (mesh_of_.contains({origin.node, origin.instance}) ||
+        (!origin.instance &&
+         node_of_mesh_.try_emplace(origin.mesh, origin.node).first->second == origin.node))
+        return;
+    Json& meshes = root_["meshes"];
+    meshes.push_back(meshes_of_file_[origin.mesh]);
+    const std::size_t mesh = mesh_of_[{origin.node, origin.instance}] = meshes.size() - 1;
+    if (!origin.instance) {
+        root_["nodes"][origin.node]["mesh"] = mesh;
+        return;
+    }
+    const std::vector<Instance> placed =
+        placed_meshes({origin.node, glm::dmat4(1.0)}, source_.buffers());
+    Json matrix = Json::array();
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            matrix.push_back(placed[*origin.instance].to_world[column][row]);
+    Json& nodes = root_["nodes"];
+    const std::string name = nodes[origin.node].value("name", "instance");
+    nodes.push_back({{"name", name + " " + std::to_string(*origin.instance)},
+                     {"mesh", mesh},
+                     {"matrix", matrix}});
+    const std::size_t child = nodes.size() - 1;
+    Json& parent = nodes[origin.node];
+    parent["children"].push_back(child);
+    parent.erase("mesh");
+    if (parent.contains("extensions"))
+        parent["extensions"].erase(instancing_extension);
+    if (parent.value("extensions", Json::object()).empty())
+        parent.erase("extensions");
+}
+
+/// Takes the extension from the lists where no node uses it any more.
+void Writer::forget_instancing() {
+    for (const Json& node : array_of("nodes"))
+        if (node.value("extensions", Json::object()).contains(instancing_extension))
+            return;
+    for (const char* const list : {"extensionsUsed", "extensionsRequired"})
+        if (root_.contains(list)) {
+            Json& names = array_of(list);
+            names.erase(std::remove(names.begin(), names.end(), instancing_extension), names.end());
+            if (names.empty())
+                root_.erase(list);
+        }
+}
+
+void Writer::add_coordinates(const AtlasCoordinates& coordinates) {
+    const PrimitiveOrigin& origin = source_.origins()[coordinates.origin];
+    give_own_mesh(origin);
+    if (!coordinates.further.empty()) {
+        const Json attributes = primitive_of(origin)["attributes"];
+        for (const auto& [name, accessor] : attributes.items())
+            primitive_of(origin)["attributes"][name] =
+                longer_copy(accessor_of(accessor, origin), coordinates.further);
+        if (primitive_of(origin).contains("targets"))
+            for (Json& target : primitive_of(origin)["targets"])
+                for (Json& accessor : target)
+                    accessor = longer_copy(accessor_of(accessor, origin), coordinates.further);
+        const std::size_t indices = add_indices(coordinates);
+        primitive_of(origin)["indices"] = indices;
+        if (primitive_of(origin).contains("mode"))
+            primitive_of(origin)["mode"] = triangles_mode;
+    }
+    const std::size_t places = add_places(coordinates.places);
+    Json& attributes = primitive_of(origin)["attributes"];
+    // The format has no set without those before it.
+    for (std::size_t set = 0; set <= lightmap_.set; ++set)
+        if (const std::string name = "TEXCOORD_" + std::to_string(set);
+            set == lightmap_.set || !attributes.contains(name))
+            attributes[name] = places;
+}
+
+/// Returns a copy of an accessor with further elements behind its own.
+std::size_t Writer::longer_copy(std::size_t accessor, const std::vector<std::uint32_t>& further) {
+    const Accessor& from = source_.document().accessors[accessor];
+    const Elements elements(source_.buffers(), accessor);
+    const std::size_t stride = (elements.element_bytes() + 3) / 4 * 4;
+    std::string all;
+    all.reserve(stride * (from.count + further.size()));
+    const auto add = [&](std::size_t element) {
+        all += elements.bytes_at(element);
+        all.resize((all.size() + stride - 1) / stride * stride, '\0');
+    };
+    for (std::size_t k = 0; k < from.count; ++k)
+        add(k);
+    for (const std::uint32_t k : further)
+        add(k);
+    const std::size_t view = add_view(all);
+    Json& of_view = root_["bufferViews"][view];
+    of_view["byteStride"] = stride;
+    of_view["target"] = vertex_target;
+    Json copy = root_["accessors"][accessor];
+    copy.erase("sparse");
+    copy["bufferView"] = view;
+    copy["byteOffset"] = 0;
+    copy["count"] = from.count + further.size();
+    root_["accessors"].push_back(std::move(copy));
+    return root_["accessors"].size() - 1;
+}
+
+std::size_t Writer::add_places(const std::vector<glm::vec2>& places) {
+    std::string bytes;
+    for (const glm::vec2& place : places) {
+        append_number(bytes, place.x);
+        append_number(bytes, place.y);
+    }
+    const std::size_t view = add_view(bytes);
+    root_["bufferViews"][view]["target"] = vertex_target;
+    Json& accessors = array_of("accessors");
+    accessors.push_back({{"bufferView", view},
+                         {"componentType", float_component},
+                         {"count", places.size()},
+                         {"type", "VEC2"}});
+    return accessors.size() - 1;
+}
+
+std::size_t Writer::add_indices(const AtlasCoordinates& coordinates) {
+    std::string bytes;
+    for (const auto& corners : coordinates.corners)
+        for (const std::uint32_t vertex : corners)
+            append_number(bytes, vertex);
+    const std::size_t view = add_view(bytes);
+    root_["bufferViews"][view]["target"] = index_target;
+    Json& accessors = array_of("accessors");
+    accessors.push_back({{"bufferView", view},
+                         {"componentType", uint_component},
+                         {"count", 3 * coordinates.corners.size()},
+                         {"type", "SCALAR"}});
+    return accessors.size() - 1;
+}
+
+void Writer::write(const std::string& path) const {
+    // A name that is not UTF-8 must not cost the user the file.
+    std::string json = root_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8;
+    const std::size_t length = header_bytes + 2 * chunk_header_bytes + json.size() + binary_.size();
+    if (length > std::numeric_limits<std::uint32_t>::max())
+        throw OutputError(path, "would be longer than the 4 GiB of a .glb file");
+    const auto word = [](std::size_t value) {
+        std::string bytes;
+        append_number(bytes, static_cast<std::uint32_t>(value));
+        return bytes;
+    };
+    AtomicFile file(path);
+    file.write("glTF" + word(2) + word(length) + word(json.size()) + "JSON");
+    file.write(json);
+    file.write(word(binary_.size()) + std::string("BIN\0", 4));
+    file.write(binary_);
+    file.commit();
+}
+
+} // namespace
+} // namespace gltf
+
+void write_lit_glb(const std::string& path, gltf::LitSource& source,
+                   const LightmapOfFile& lightmap) {
+    gltf::Writer writer(source, lightmap);
+    writer.make();
+    writer.write(path);
+}
+
+} // namespace hemilux

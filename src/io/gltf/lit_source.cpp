@@ -1,0 +1,200 @@
+#include "io/gltf/lit_source.h"
+
+#include "bvh/tracer.h"
+#include "io/files/error.h"
+#include "io/gltf/scene_meshes.h"
+#include "io/lightmaps/chart_regions.h"
+#include "radiosity/paper/scene/mesh.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace hemilux::gltf {
+namespace {
+
+Document document_of(const Container& container, const std::string& path) {
+    const JsonDocument json(container.json, path);
+    return read_document(json.root());
+}
+
+/// Returns which corner of a facet is this vertex of the scene.
+std::size_t corner_of(const Facet& facet, std::uint32_t vertex) {
+    return static_cast<std::size_t>(std::ranges::find(facet.vertex, vertex) - facet.vertex.begin());
+}
+
+/// Sets of triangles that are joined (union and find).
+class Joined {
+  public:
+    explicit Joined(std::size_t count) : of_(count) {
+        std::iota(of_.begin(), of_.end(), std::size_t{0});
+    }
+    std::size_t find(std::size_t k) {
+        while (of_[k] != k)
+            k = of_[k] = of_[of_[k]];
+        return k;
+    }
+    void join(std::size_t a, std::size_t b) { of_[find(b)] = find(a); }
+
+  private:
+    std::vector<std::size_t> of_;
+};
+
+/// Numbers the charts: triangles that share an end in both the set and the scene.
+void find_charts_of(const Mesh& mesh, std::vector<PlacedTriangle>& triangles) {
+    using End = std::tuple<double, double, double, double, double>;
+    std::map<End, std::size_t> at;
+    Joined joined(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const auto corners = corners_of(mesh, triangles[t]);
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const Vec2& place = triangles[t].place[k];
+            const auto [found, is_new] =
+                at.try_emplace(End(place.x, place.y, corners[k].x, corners[k].y, corners[k].z), t);
+            if (!is_new)
+                joined.join(found->second, t);
+        }
+    }
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        triangles[t].chart = static_cast<std::uint32_t>(joined.find(t));
+}
+
+void add_once(std::vector<std::uint32_t>& groups, std::uint32_t group) {
+    if (std::ranges::find(groups, group) == groups.end())
+        groups.push_back(group);
+}
+
+} // namespace
+
+LitSource::LitSource(const std::string& path, const ReadGuard& guard,
+                     std::vector<PrimitiveOrigin> origins)
+    : path_(path), guard_(guard), container_(read_container(path_, guard_)),
+      document_(document_of(container_, path_)), buffers_(document_, container_, path_, guard_),
+      triangles_(buffers_), origins_(std::move(origins)) {
+    for (const PrimitiveOrigin& origin : origins_) {
+        const bool is_there = origin.mesh < document_.meshes.size() &&
+                              origin.primitive < document_.meshes[origin.mesh].primitives.size() &&
+                              origin.node < document_.nodes.size();
+        if (!is_there || count_triangles(primitive_of(origin), buffers_,
+                                         place_of(origin.mesh, origin.primitive)) != origin.faces)
+            throw InputError(path_, "the file has changed since it was read");
+    }
+}
+
+Triangles LitSource::triangles_of(const PrimitiveOrigin& origin, std::size_t sets) {
+    const Primitive& primitive = primitive_of(origin);
+    Triangles triangles = triangles_.read(primitive, place_of(origin.mesh, origin.primitive),
+                                          std::min(sets, primitive.texcoords.size()));
+    if (triangles.points.size() != origin.vertices)
+        throw InputError(path_, "the file has changed since it was read");
+    return triangles;
+}
+
+std::size_t LitSource::texcoord_sets() const {
+    std::size_t sets = 0;
+    for (const PrimitiveOrigin& origin : origins_)
+        sets = std::max(sets, primitive_of(origin).texcoords.size());
+    return sets;
+}
+
+std::vector<std::uint32_t> facets_by_face(const Mesh& mesh) {
+    std::vector<std::uint32_t> by_face(mesh.scene().faces, none);
+    for (std::uint32_t f = 0; f < mesh.scene().facets.size(); ++f)
+        if (const std::uint32_t face = mesh.scene().facets[f].face; face < by_face.size())
+            by_face[face] = f;
+    return by_face;
+}
+
+PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh, std::span<const ChartSide> sides,
+                           std::size_t set) {
+    constexpr double rounding = 1e-5;
+    const Scene& scene = mesh.scene();
+    std::vector<std::uint32_t> side_of(scene.facets.size(), none);
+    for (std::uint32_t s = 0; s < sides.size(); ++s)
+        side_of[sides[s].facet] = s;
+    const std::vector<std::uint32_t> by_face = facets_by_face(mesh);
+    PlacesOfFile found;
+    for (const PrimitiveOrigin& origin : source.origins()) {
+        const Triangles triangles = source.triangles_of(origin, set + 1);
+        for (std::uint32_t t = 0; t < origin.faces; ++t) {
+            const std::uint32_t f = by_face[origin.first_face + t];
+            if (f == none || side_of[f] == none)
+                continue;
+            const Facet& facet = scene.facets[f];
+            if (triangles.texcoords.size() <= set) {
+                add_once(found.without, facet.group);
+                continue;
+            }
+            PlacedTriangle placed{f, sides[side_of[f]].back, false, 0, {}};
+            bool is_outside = false;
+            for (std::size_t k = 0; k < 3; ++k) {
+                placed.place[k] = triangles.texcoords[set][facet.vertex[k] - origin.first_vertex];
+                const auto [x, y] = std::pair(placed.place[k].x, placed.place[k].y);
+                is_outside =
+                    is_outside || !(std::min(x, y) >= -rounding && std::max(x, y) <= 1 + rounding);
+            }
+            if (cross(placed.place[1] - placed.place[0], placed.place[2] - placed.place[0]) == 0)
+                add_once(found.without, facet.group);
+            if (is_outside)
+                add_once(found.outside, facet.group);
+            found.triangles.push_back(placed);
+        }
+    }
+    find_charts_of(mesh, found.triangles);
+    return found;
+}
+
+std::vector<AtlasCoordinates> atlas_coordinates(LitSource& source, const Mesh& mesh,
+                                                std::span<const PlacedTriangle> triangles) {
+    const Scene& scene = mesh.scene();
+    std::vector<std::uint32_t> placed_of(scene.facets.size(), none);
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        placed_of[triangles[t].facet] = t;
+    const std::vector<std::uint32_t> by_face = facets_by_face(mesh);
+    std::vector<AtlasCoordinates> all;
+    for (std::size_t o = 0; o < source.origins().size(); ++o) {
+        const PrimitiveOrigin& origin = source.origins()[o];
+        const Triangles read = source.triangles_of(origin, 0);
+        const Primitive& primitive = source.primitive_of(origin);
+        if (!primitive.position)
+            continue;
+        const std::size_t vertices = source.document().accessors[*primitive.position].count;
+        AtlasCoordinates coordinates{o, std::vector<glm::vec2>(vertices, glm::vec2(0.0f)), {}, {}};
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> number; // vertex, chart
+        std::vector<bool> is_placed(vertices);
+        bool any = false;
+        for (std::uint32_t t = 0; t < origin.faces; ++t) {
+            auto& corners = coordinates.corners.emplace_back();
+            const std::uint32_t f = by_face[origin.first_face + t];
+            const std::uint32_t place = f == none ? none : placed_of[f];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t point = read.corners[t][k], vertex = read.vertex[point];
+                corners[k] = vertex;
+                if (place == none)
+                    continue;
+                any = true;
+                const PlacedTriangle& placed = triangles[place];
+                const auto [found, is_new] = number.try_emplace(std::pair(vertex, placed.chart), 0);
+                if (is_new) {
+                    found->second = vertex;
+                    if (is_placed[vertex]) {
+                        found->second = static_cast<std::uint32_t>(coordinates.places.size());
+                        coordinates.places.emplace_back();
+                        coordinates.further.push_back(vertex);
+                    }
+                    is_placed[vertex] = true;
+                    coordinates.places[found->second] = glm::vec2(
+                        placed.place[corner_of(scene.facets[f], origin.first_vertex + point)]);
+                }
+                corners[k] = found->second;
+            }
+        }
+        if (any)
+            all.push_back(std::move(coordinates));
+    }
+    return all;
+}
+
+} // namespace hemilux::gltf

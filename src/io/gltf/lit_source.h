@@ -1,0 +1,82 @@
+#pragma once
+// A glTF file that is read once more, to be written again with a lightmap: its texture coordinates,
+// and the numbers of its vertices.
+
+#include "io/gltf/elements.h"
+#include "io/gltf/primitives.h"
+#include "io/lightmaps/chart_regions.h"
+#include "io/lightmaps/texel_map.h"
+#include "io/scene_files/read_result.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+
+namespace gltf {
+
+class LitSource {
+  public:
+    /// Reads the file. `origins` say what was read from it before. Throws InputError, also where
+    /// the file has changed since.
+    LitSource(const std::string& path, const ReadGuard& guard,
+              std::vector<PrimitiveOrigin> origins);
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] const Document& document() const { return document_; }
+    [[nodiscard]] const Container& container() const { return container_; }
+    [[nodiscard]] Buffers& buffers() { return buffers_; }
+    [[nodiscard]] const std::vector<PrimitiveOrigin>& origins() const { return origins_; }
+    [[nodiscard]] const Primitive& primitive_of(const PrimitiveOrigin& origin) const {
+        return document_.meshes[origin.mesh].primitives[origin.primitive];
+    }
+    /// Returns the triangles of an origin with texture coordinates of so many sets.
+    [[nodiscard]] Triangles triangles_of(const PrimitiveOrigin& origin, std::size_t sets);
+    /// Returns the number of the sets that the primitive with most of them has.
+    [[nodiscard]] std::size_t texcoord_sets() const;
+
+  private:
+    std::string path_;
+    const ReadGuard guard_;
+    Container container_;
+    Document document_;
+    Buffers buffers_;
+    TriangleReader triangles_;
+    std::vector<PrimitiveOrigin> origins_;
+};
+
+/// The facets of the scene by face; none where a face has no area.
+[[nodiscard]] std::vector<std::uint32_t> facets_by_face(const Mesh& mesh);
+
+/// The places of triangles in the texture coordinates that a file has.
+struct PlacesOfFile {
+    std::vector<PlacedTriangle> triangles; ///< places in [0,1]
+    /// Groups of facets, each once: those without coordinates, and with places beyond [0,1].
+    std::vector<std::uint32_t> without, outside;
+};
+/// Returns the places of these sides in a set of the file. Charts are triangles that meet in the
+/// set as they do on the surface.
+[[nodiscard]] PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh,
+                                         std::span<const ChartSide> sides, std::size_t set);
+
+/// The texture coordinates of a primitive in an atlas. Vertices at which charts meet are there once
+/// for each chart: the further ones stand behind those of the file.
+struct AtlasCoordinates {
+    std::size_t origin;
+    std::vector<glm::vec2> places;      ///< in [0,1], by vertex
+    std::vector<std::uint32_t> further; ///< vertices of the file that the further ones copy
+    std::vector<std::array<std::uint32_t, 3>> corners; ///< vertices by triangle
+};
+/// Returns the coordinates of primitives of which some triangle is placed, from places in [0,1].
+[[nodiscard]] std::vector<AtlasCoordinates>
+atlas_coordinates(LitSource& source, const Mesh& mesh, std::span<const PlacedTriangle> triangles);
+
+} // namespace gltf
+} // namespace hemilux

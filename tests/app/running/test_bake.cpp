@@ -1,0 +1,229 @@
+// hemilux bake: the scene's own file comes back with its light, and nothing of it is lost.
+#include "app/check_fails.h"
+#include "io/gltf/gltf_text.h"
+#include "support/catch.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+using namespace hemilux::test;
+using test::check_fails;
+using test::Workplace;
+using Json = nlohmann::json;
+
+namespace {
+
+/// The scene: a floor of 2 x 2 m below a lamp, and a cube on the floor whose eight vertices its
+/// faces share. `second` are the places of the floor and the lamp in TEXCOORD_1.
+struct SmallRoom {
+    std::vector<float> second{0, 0, .45f, 0, .45f, .45f, 0, .45f};
+    bool cube = true, cube_twice = false;
+
+    [[nodiscard]] std::string text() const {
+        const std::vector<float> floor{-1, 0, 1, 1, 0, 1, 1, 0, -1, -1, 0, -1},
+            lamp{-.5f, 2, -.5f, .5f, 2, -.5f, .5f, 2, .5f, -.5f, 2, .5f},
+            first{0, 0, 1, 0, 1, 1, 0, 1}, of_lamp{.5f, .5f, 1, .5f, 1, 1, .5f, 1};
+        std::vector<float> corners;
+        for (int k = 0; k < 8; ++k)
+            for (const float x : {k & 1 ? .2f : -.2f, k & 2 ? .4f : 0.f, k & 4 ? .2f : -.2f})
+                corners.push_back(x);
+        const std::vector<std::uint16_t> quad{0, 1, 2, 0, 2, 3},
+            sides{0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                  2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+        const auto accessor = [](int view, const char* type, std::size_t count, int component) {
+            return R"({"bufferView":)" + std::to_string(view) + R"(,"componentType":)" +
+                   std::to_string(component) + R"(,"count":)" + std::to_string(count) +
+                   R"(,"type":")" + type + R"("})";
+        };
+        const std::string accessors =
+            accessor(0, "VEC3", 4, 5126) + "," + accessor(1, "VEC3", 4, 5126) + "," +
+            accessor(2, "VEC2", 4, 5126) + "," + accessor(3, "VEC2", 4, 5126) + "," +
+            accessor(4, "VEC2", 4, 5126) + "," + accessor(5, "SCALAR", 6, 5123) + "," +
+            accessor(6, "VEC3", 8, 5126) + "," + accessor(7, "SCALAR", 36, 5123);
+        const std::string cubes =
+            std::string(cube ? R"(,{"name":"cube","mesh":2,"extras":{"kept":[1,2.5,"x"]}})" : "") +
+            (cube_twice ? R"(,{"name":"other cube","mesh":2,"translation":[0.6,0,0.6]})" : "");
+        const std::string members =
+            R"("accessors":[)" + accessors + R"(],"scene":0,"scenes":[{"nodes":[0)" +
+            (cube ? std::string(",3") + (cube_twice ? ",4" : "") : "") + R"(]}],"nodes":[)" +
+            R"({"name":"all","children":[1,2],"extensions":{"X_unknown":{"a":1}}},)" +
+            R"({"name":"floor","mesh":0},{"name":"lamp","mesh":1})" + cubes +
+            R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":2,)" +
+            R"("TEXCOORD_1":3},"indices":5,"material":0}]},)" +
+            R"({"primitives":[{"attributes":{"POSITION":1,"TEXCOORD_0":2,"TEXCOORD_1":4},)" +
+            R"("indices":5,"material":1}]},)" +
+            R"({"name":"c","primitives":[{"attributes":{"POSITION":6},"indices":7}]}],)" +
+            R"("materials":[{"name":"paint","pbrMetallicRoughness":{"baseColorFactor":)" +
+            R"([0.5,0.5,0.5,1],"metallicFactor":0}},{"name":"light","emissiveFactor":[1,1,1],)" +
+            R"("pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1],"metallicFactor":0}}],)" +
+            R"("extensionsUsed":["X_unknown"],"extras":{"by":"hand"})";
+        return gltf_text({bytes_of(floor), bytes_of(lamp), bytes_of(first), bytes_of(second),
+                          bytes_of(of_lamp), bytes_of(quad), bytes_of(corners), bytes_of(sides)},
+                         members);
+    }
+};
+
+struct Glb {
+    Json json;
+    std::string binary;
+};
+
+Glb glb_from(const std::string& bytes) {
+    const auto word = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        std::memcpy(&value, bytes.data() + at, sizeof value);
+        return std::size_t{value};
+    };
+    REQUIRE(bytes.size() > 28);
+    REQUIRE(word(8) == bytes.size());
+    const std::size_t json = word(12);
+    REQUIRE(json % 4 == 0);
+    return {Json::parse(bytes.substr(20, json)), bytes.substr(28 + json, word(20 + json))};
+}
+
+/// Everything that `before` has is in `after`, with the same value, but for what lies at these
+/// paths.
+void check_additions(const Json& before, const Json& after, const std::string& path,
+                     const std::vector<std::string>& changed) {
+    CAPTURE(path);
+    if (std::find(changed.begin(), changed.end(), path) != changed.end())
+        return;
+    REQUIRE(before.type() == after.type());
+    if (before.is_structured()) {
+        for (const auto& [key, value] : before.items()) {
+            const bool is_object = before.is_object();
+            const std::string inner = path + "/" + key;
+            if (std::find(changed.begin(), changed.end(), inner) != changed.end())
+                continue;
+            CAPTURE(inner);
+            REQUIRE((is_object ? after.contains(key) : std::stoul(key) < after.size()));
+            check_additions(value, is_object ? after[key] : after[std::stoul(key)], inner, changed);
+        }
+    } else {
+        CHECK(before == after);
+    }
+}
+
+std::vector<float> floats_of(const Glb& file, std::size_t accessor) {
+    const Json& of = file.json["accessors"][accessor];
+    const Json& view = file.json["bufferViews"][of["bufferView"].get<std::size_t>()];
+    const std::size_t components = of["type"] == "VEC2" ? 2 : 3;
+    std::vector<float> floats(of["count"].get<std::size_t>() * components);
+    std::memcpy(floats.data(),
+                file.binary.data() + view.value("byteOffset", 0) + of.value("byteOffset", 0),
+                floats.size() * sizeof(float));
+    return floats;
+}
+
+constexpr const char* fast = " -q --error 10% --max-rays 200000 --gather 4 --lightmap 64 ";
+
+} // namespace
+
+TEST_CASE("bake adds a lightmap in the second coordinates of the file, and changes nothing else") {
+    const Workplace place;
+    const SmallRoom room{.cube = false};
+    place.write("room.gltf", room.text());
+    REQUIRE(place.hemilux("bake room.gltf -o lit.glb" + std::string(fast)).code == 0);
+    const Json before = Json::parse(room.text());
+    const Glb after = glb_from(place.read("lit.glb"));
+    check_additions(before, after.json, "", {"/buffers/0"});
+    CHECK(after.json["accessors"] == before["accessors"]);
+    CHECK(after.json["nodes"] == before["nodes"]);
+    CHECK(after.json["meshes"] == before["meshes"]);
+    CHECK(after.json["buffers"] == Json::array({{{"byteLength", after.binary.size()}}}));
+    REQUIRE(after.json["textures"].size() == 1);
+    CHECK(after.json["images"][0]["mimeType"] == "image/png");
+    for (const Json& material : after.json["materials"]) {
+        const Json& lightmap = material["extensions"]["MOZ_lightmap"];
+        CHECK(lightmap["index"] == 0);
+        CHECK(lightmap["texCoord"] == 1);
+        CHECK(lightmap["intensity"].get<double>() > 0);
+    }
+    CHECK(after.json["extensionsUsed"] == Json::array({"X_unknown", "MOZ_lightmap"}));
+    CHECK(place.has("lit.lightmap.exr"));
+    // It is a scene as before.
+    CHECK(place.hemilux("info lit.glb").code == 0);
+    CHECK(place.hemilux("info lit.glb").err.find("MOZ_lightmap") == std::string::npos);
+}
+
+TEST_CASE("bake makes an atlas where the file has no coordinates for a lightmap") {
+    const Workplace place;
+    SmallRoom room;
+    room.cube_twice = true;
+    place.write("room.gltf", room.text());
+    const auto outcome =
+        place.hemilux("bake room.gltf -o lit.glb --error 10% --max-rays 200000 --gather 4 "
+                      "--lightmap 64");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Catch::Contains("no place in it: cube, other cube"));
+    const Json before = Json::parse(room.text());
+    const Glb after = glb_from(place.read("lit.glb"));
+    // The cubes have one mesh each, and their vertices are divided where charts meet.
+    check_additions(before, after.json, "",
+                    {"/buffers/0", "/nodes/4/mesh", "/meshes/2/primitives/0/attributes/POSITION",
+                     "/meshes/2/primitives/0/indices"});
+    REQUIRE(after.json["meshes"].size() == 4);
+    CHECK(after.json["nodes"][4]["mesh"] == 3);
+    CHECK(after.json["meshes"][3]["name"] == "c");
+    const std::vector<float> shared = floats_of(glb_from(place.read("lit.glb")), 6);
+    std::vector<std::vector<float>> places;
+    for (const std::size_t mesh : {2u, 3u}) {
+        const Json& attributes = after.json["meshes"][mesh]["primitives"][0]["attributes"];
+        REQUIRE(attributes.contains("TEXCOORD_2"));
+        CHECK(attributes.contains("TEXCOORD_0")); // without which there is no third set
+        const std::vector<float> positions =
+            floats_of(after, attributes["POSITION"].get<std::size_t>());
+        CHECK(positions.size() == 3 * 24);
+        CHECK(std::equal(shared.begin(), shared.end(), positions.begin()));
+        places.push_back(floats_of(after, attributes["TEXCOORD_2"].get<std::size_t>()));
+        CHECK(places.back().size() == 2 * 24);
+        for (const float place_of : places.back())
+            CHECK((place_of > 0 && place_of < 1));
+    }
+    CHECK(places[0] != places[1]);
+    CHECK(place.hemilux("info lit.glb").code == 0);
+}
+
+TEST_CASE("bake names overlaps and places beyond the square by object") {
+    const Workplace place;
+    SmallRoom room{.second = {.4f, .4f, 1, .4f, 1, 1, .4f, 1}, .cube = false};
+    place.write("over.gltf", room.text());
+    check_fails(place, 2, "bake over.gltf -o lit.glb --lightmap-uv 1",
+                "it has overlaps: floor with lamp");
+    room.second = {0, 0, 2, 0, 2, 2, 0, 2};
+    place.write("beyond.gltf", room.text());
+    check_fails(place, 2, "bake beyond.gltf -o lit.glb --lightmap-uv 1",
+                "these objects reach beyond [0,1]: floor");
+    check_fails(place, 2, "bake beyond.gltf -o lit.glb --lightmap-uv 7",
+                "these objects have no place in it: floor, lamp");
+    check_fails(place, 1, "bake beyond.gltf -o lit.glb --bake radiosity", "--bind unlit");
+    place.write_room();
+    check_fails(place, 1, "bake room.obj -o lit.glb", "bake is for glTF files");
+    check_fails(place, 1, "bake over.gltf -o lit.obj", "a file name that ends with .glb");
+    place.write("self.glb", "");
+    check_fails(place, 1, "bake self.glb -o self.glb", "are one file");
+    CHECK_FALSE(place.has("lit.glb"));
+}
+
+TEST_CASE("a baked file can be shown by any viewer, and is the same for any number of threads") {
+    const Workplace place;
+    place.write("room.gltf", SmallRoom{.cube = false}.text());
+    for (const std::string threads : {"1", "3"})
+        REQUIRE(place
+                    .hemilux("bake room.gltf --bind unlit -o lit" + threads + ".glb -t " + threads +
+                             fast)
+                    .code == 0);
+    CHECK(place.read("lit1.glb") == place.read("lit3.glb"));
+    CHECK(place.read("lit1.lightmap.exr") == place.read("lit3.lightmap.exr"));
+    const Json json = glb_from(place.read("lit1.glb")).json;
+    for (const Json& material : json["materials"]) {
+        CHECK(material["extensions"].contains("KHR_materials_unlit"));
+        CHECK(material["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] == 1);
+        CHECK_FALSE(material.contains("emissiveFactor"));
+    }
+    CHECK(json["textures"][0]["extras"]["hemilux"]["bake"] == "radiosity");
+}
