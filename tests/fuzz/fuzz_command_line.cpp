@@ -20,6 +20,7 @@ class Program {
         add_compare_command(program_, now_.compare);
         add_density_command(program_, now_.density);
         add_formfactors_command(program_, now_.formfactors);
+        add_viewfactors_command(program_, now_.viewfactors);
         add_info_command(program_, now_.info);
         fresh_ = now_;
     }
@@ -38,6 +39,7 @@ class Program {
         CompareSettings compare;
         DensitySettings density;
         FormFactorSettings formfactors;
+        ViewFactorSettings viewfactors;
         InfoSettings info;
     };
     Arguments program_{"hemilux", ""};

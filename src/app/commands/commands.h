@@ -9,6 +9,7 @@ int solve(const SolveSettings& settings);
 int compare(const CompareSettings& settings);
 int density(DensitySettings settings);
 int formfactors(const FormFactorSettings& settings);
+int viewfactors(const ViewFactorSettings& settings);
 int info(const InfoSettings& settings);
 
 } // namespace hemilux

@@ -199,6 +199,7 @@ void RowPairs::estimate(std::uint32_t i, const Candidate& candidate,
         if (of_a.empty() || of_b.empty())
             return;
     }
+    const double exact = free_exchange(a, b, candidate.facing, FreeAccuracy::exact, plane_rounding);
     const PairHull hull(of_a, a.plane, of_b, b.plane, plane_rounding);
     near_.clear();
     between_.clear();
@@ -212,12 +213,10 @@ void RowPairs::estimate(std::uint32_t i, const Candidate& candidate,
     }
     if (between_.empty()) {
         ++work_.exact_pairs;
-        add(i, candidate,
-            free_exchange(a, b, candidate.facing, FreeAccuracy::exact, plane_rounding), 1, 0,
-            pairs);
+        add(i, candidate, exact, 1, 0, pairs);
         return;
     }
-    estimate_by_lines(i, candidate, free, pairs);
+    estimate_by_lines(i, candidate, exact, pairs);
 }
 
 void RowPairs::estimate_by_lines(std::uint32_t i, const Candidate& candidate, double free,

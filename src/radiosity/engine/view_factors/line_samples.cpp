@@ -38,7 +38,7 @@ struct LineSamples::Line {
     }
 };
 
-LineSamples::LineSamples(const FacePlane& a, const FacePlane& b, std::span<const Polygon> between)
+LineSamples::LineSamples(const FacePlane& a, const FacePlane& b, std::span<Polygon> between)
     : points_(a.area <= b.area ? a : b), lines_(a.area <= b.area ? b : a), between_(between) {}
 
 /// Finds the interval of the line that a facet hides. The facet meets the plane of the point and
@@ -86,12 +86,14 @@ bool LineSamples::hidden_by(const Polygon& facet, const Line& line, Vec2& interv
 
 double LineSamples::seen_of(const Line& line, double whole) {
     hidden_.clear();
-    for (const Polygon& facet : between_) {
+    for (std::size_t k = 0; k < between_.size(); ++k) {
         Vec2 interval;
-        if (!hidden_by(facet, line, interval))
+        if (!hidden_by(between_[k], line, interval))
             continue;
-        if (interval.x <= line.low && interval.y >= line.high)
+        if (interval.x <= line.low && interval.y >= line.high) {
+            std::swap(between_[k], between_[k / 2]);
             return 0;
+        }
         hidden_.push_back(interval);
     }
     if (hidden_.empty())

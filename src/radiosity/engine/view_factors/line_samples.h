@@ -28,8 +28,8 @@ enum class LinesAlong : std::uint8_t { first_edge, second_edge };
 class LineSamples {
   public:
     /// Lines lie across the larger of the two. `between` are the facets that may stand between
-    /// them. All of it must outlive this.
-    LineSamples(const FacePlane& a, const FacePlane& b, std::span<const Polygon> between);
+    /// them; those that hide most are moved to its front. All of it must outlive this.
+    LineSamples(const FacePlane& a, const FacePlane& b, std::span<Polygon> between);
 
     /// Draws two lines in each of cells^3 cells. The share has the same bytes for the same seed.
     [[nodiscard]] SeenShare estimate(unsigned cells, LinesAlong along, std::uint64_t seed);
@@ -42,7 +42,7 @@ class LineSamples {
     [[nodiscard]] Vec2 sample(const Polygon& shape, const Vec3& x, double s);
 
     const FacePlane &points_, &lines_;
-    std::span<const Polygon> between_;
+    std::span<Polygon> between_;
     std::vector<Vec2> hidden_; ///< intervals of a line
     std::vector<Vec2> sums_;   ///< by line
 };
