@@ -8,6 +8,7 @@
 #include "app/running/signals.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
+#include "app/settings/view_factor_settings.h"
 #include "app/terminal/log.h"
 #include "app/terminal/print.h"
 #include "io/files/error.h"

@@ -2,6 +2,7 @@
 
 #include "app/command_line/options.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/view_factor_settings.h"
 
 #include <cstdint>
 #include <sstream>

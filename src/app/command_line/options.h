@@ -6,6 +6,8 @@
 
 namespace hemilux {
 
+struct ViewFactorSettings; // view_factor_settings.h
+
 /// Each of these adds a subcommand that fills the settings while the arguments are parsed.
 Command add_solve_command(Arguments& program, SolveSettings& settings);
 Command add_compare_command(Arguments& program, CompareSettings& settings);

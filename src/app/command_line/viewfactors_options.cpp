@@ -13,7 +13,8 @@ constexpr const char* viewfactors_examples = R"(Examples:
   hemilux viewfactors room.obj -o factors.csv --legend surfaces.csv
   hemilux viewfactors room.obj --by group --sky -o factors.npz
   hemilux viewfactors room.obj --error 0.5% --of above:0.01 -o factors.npz
-  hemilux viewfactors room.obj -o vfsparse.inp.001 -o svf.inp.001
+  hemilux viewfactors city.stl -o vfsparse.inp.001 -o svf.inp.001
+  hemilux viewfactors city.stl --of sky -o sky.vtu --legend sky.csv
 )";
 
 std::optional<std::uint32_t> rays_from(const std::string& text) {
@@ -43,11 +44,11 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
     add_error(method, "--error", settings.error,
               "the standard error that is aimed at, relative [1%]");
     add_parsed(
-        method, "--of", "above:F|rows|largest|pair:A,B",
+        method, "--of", "above:F|rows|largest|pair:A,B|sky",
         "what it is of: factors of at least F, their root mean square; the factors of each "
         "row together; the largest factor of each row; the factor between two surfaces "
         "[above:0.001]",
-        "above:F with F from 1e-6 to 1, rows, largest or pair:A,B",
+        "above:F with F from 1e-6 to 1, rows, largest, pair:A,B or sky",
         [](const std::string& text) { return parse_factor_aim(text); },
         [&settings](const FactorAim& aim) { settings.aim = aim; });
     add_parsed(method, "--rays", "N",

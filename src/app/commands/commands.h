@@ -5,6 +5,8 @@
 
 namespace hemilux {
 
+struct ViewFactorSettings; // view_factor_settings.h
+
 int solve(const SolveSettings& settings);
 int compare(const CompareSettings& settings);
 int density(DensitySettings settings);

@@ -1,7 +1,7 @@
 #pragma once
 // The rows of a matrix of view factors: which patch belongs to which, and what they are called.
 
-#include "app/settings/settings.h"
+#include "app/settings/view_factor_settings.h"
 #include "io/results/view_factor_files.h"
 
 #include <cstdint>

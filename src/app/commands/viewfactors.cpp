@@ -12,6 +12,7 @@
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
 #include "bvh/wide/wide_bvh.h"
+#include "io/meshes/factor_cells.h"
 #include "io/results/view_factor_files.h"
 
 #include <algorithm>
@@ -83,6 +84,7 @@ FactorTolerance tolerance_of(const ViewFactorSettings& settings, const FactorSur
             return error * std::max(std::sqrt(factor), least);
         };
     case FactorAim::Of::pair:
+    case FactorAim::Of::sky: // which needs no pairs
         break;
     }
     const std::uint32_t a = row_named(surfaces, settings.aim.from),
@@ -93,6 +95,19 @@ FactorTolerance tolerance_of(const ViewFactorSettings& settings, const FactorSur
         const bool counts = (row == a && column == b) || (row == b && column == a);
         return error * std::max(factor, counts ? least_of_pair : least_of_others);
     };
+}
+
+/// Throws UsageError where --of sky is to write factors that it does not compute.
+void check_sky(const ViewFactorSettings& settings) {
+    if (settings.aim.of != FactorAim::Of::sky)
+        return;
+    for (const std::string& path : settings.outputs) {
+        const auto kind = factor_file_of(path);
+        if (kind != FactorFile::udales_sky && kind != FactorFile::cells)
+            throw UsageError(path +
+                             ": --of sky computes no factors between surfaces; -o svf.inp... "
+                             "or .vtu and --legend have sky and ground");
+    }
 }
 
 /// The largest factor of each row: the smallest of all, and the worst relative error.
@@ -142,6 +157,19 @@ ViewFactors compute(const ViewFactorSettings& settings, const LoadedSurfaces& lo
         return view_factors(loaded.mesh, tree, surfaces.row_of, surfaces.rows.size(), options,
                             workers, monitor);
     };
+    if (settings.aim.of == FactorAim::Of::sky) {
+        const OpenViews views = find_open_views(loaded.mesh, tree, settings.error,
+                                                settings.options.seed, loaded.up, workers, monitor);
+        ExchangeList list;
+        for (const Patch& patch : loaded.mesh.patches())
+            list.area.push_back(patch.area);
+        list.pairs.resize(list.area.size());
+        list.unlisted_bound.resize(list.area.size());
+        list.open = views.open;
+        ViewFactors factors = sum_over_rows(list, surfaces.row_of, surfaces.rows.size());
+        factors.work.rays = views.rays;
+        return factors;
+    }
     ViewFactors factors = with_largest(first_guess);
     if (settings.aim.of != FactorAim::Of::largest || monitor.interrupted)
         return factors;
@@ -173,6 +201,16 @@ void log_error(const ViewFactorSettings& settings, const FactorSurfaces& surface
         reached = worst_row_error(factors);
         text = "all factors of a row together: " + percent(reached) + " of it at most";
         break;
+    case FactorAim::Of::sky: {
+        constexpr double least = .01;
+        for (const auto& open : factors.open)
+            for (std::size_t k = 0; k < 2; ++k)
+                reached =
+                    std::max(reached, open[k].standard_error / std::max(open[k].factor, least));
+        text = "sky and ground: " + percent(reached) +
+               " of each at most, or of 0.01 where it is smaller";
+        break;
+    }
     case FactorAim::Of::pair: {
         const OpenShare factor = factors.between(row_named(surfaces, settings.aim.from),
                                                  row_named(surfaces, settings.aim.to));
@@ -187,8 +225,10 @@ void log_error(const ViewFactorSettings& settings, const FactorSurfaces& surface
         log_line(settings.verbosity, Verbosity::normal,
                  "warning: the error is " + percent(reached) + ", where " +
                      percent(settings.error) +
-                     " was asked for; most of it is where little is seen past many edges, and "
-                     "smaller faces (--max-edge) have a smaller one");
+                     " was asked for; most of it is where little is seen past many edges" +
+                     (settings.aim.of == FactorAim::Of::sky
+                          ? ""
+                          : ", and smaller faces (--max-edge) have a smaller one"));
 }
 
 /// Names a few rows whose views are lost on backs: most likely they are turned.
@@ -215,10 +255,16 @@ void log_audit(const ViewFactorSettings& settings, const FactorSurfaces& surface
         log_line(settings.verbosity, Verbosity::normal, text);
     };
     const ExchangeWork& work = factors.work;
-    line(counted(factors.rows(), "surface", "surfaces") + " of " +
-         counted(surfaces.row_of.size(), "patch", "patches") + "; " + grouped(work.exact_pairs) +
-         " pairs exact, " + grouped(work.line_pairs) + " by lines, " + grouped(work.ray_pairs) +
-         " by rays; " + short_counted(work.rays, "ray", "rays") + ", " +
+    const std::string of_what = counted(factors.rows(), "surface", "surfaces") + " of " +
+                                counted(surfaces.row_of.size(), "patch", "patches") + "; ";
+    if (settings.aim.of == FactorAim::Of::sky) {
+        line(of_what + short_counted(work.rays, "ray", "rays") + ", " + duration(seconds));
+        log_error(settings, surfaces, factors);
+        return log_turned(settings, surfaces, factors);
+    }
+    line(of_what + grouped(work.exact_pairs) + " pairs exact, " + grouped(work.line_pairs) +
+         " by lines, " + grouped(work.ray_pairs) + " by rays; " +
+         short_counted(work.rays, "ray", "rays") + ", " +
          short_counted(work.lines, "line", "lines") + ", " + duration(seconds));
     log_error(settings, surfaces, factors);
     if (work.clear_pairs > 0)
@@ -275,6 +321,7 @@ int viewfactors(const ViewFactorSettings& settings) {
     const LoadedSurfaces loaded = load_surfaces(settings, files);
     const FactorSurfaces surfaces = factor_surfaces(loaded.mesh, settings.by);
     check_dense(settings, surfaces.rows.size());
+    check_sky(settings);
     const Stopwatch computing;
     const WideBvh tree(loaded.mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted.own().wished);
@@ -284,7 +331,11 @@ int viewfactors(const ViewFactorSettings& settings) {
         return exit_code_of_signal();
     }
     log_audit(settings, surfaces, factors, computing.seconds());
-    FactorTable table{factors, surfaces.rows, {}, &monitor.interrupted.own().wished};
+    FactorTable table{factors,
+                      surfaces.rows,
+                      {},
+                      &monitor.interrupted.own().wished,
+                      settings.aim.of != FactorAim::Of::sky};
     if (settings.sky)
         table.columns.push_back(Open::sky);
     if (settings.ground)

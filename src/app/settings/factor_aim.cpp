@@ -13,8 +13,8 @@ std::optional<FactorAim> parse_factor_aim(std::string_view text) {
         aim.of = FactorAim::Of::rows;
         return aim;
     }
-    if (text == "largest") {
-        aim.of = FactorAim::Of::largest;
+    if (text == "largest" || text == "sky") {
+        aim.of = text == "sky" ? FactorAim::Of::sky : FactorAim::Of::largest;
         return aim;
     }
     if (text.starts_with(above)) {

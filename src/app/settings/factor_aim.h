@@ -1,7 +1,7 @@
 #pragma once
 // What the command line says about view factors: whose error is asked for, and kinds of files.
 
-#include "app/settings/settings.h"
+#include "app/settings/view_factor_settings.h"
 
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace hemilux {
 
-/// Reads "above:F", "rows", "largest" or "pair:A,B"; empty for any other text.
+/// Reads "above:F", "rows", "largest", "pair:A,B" or "sky"; empty for any other text.
 [[nodiscard]] std::optional<FactorAim> parse_factor_aim(std::string_view text);
 
 enum class FactorFile { pairs, sparse, dense, cells, udales_factors, udales_sky };

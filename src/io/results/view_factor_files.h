@@ -1,6 +1,6 @@
 #pragma once
-// View factors as files: a table of pairs, a legend of surfaces, a sparse matrix for SciPy, the
-// input of uDALES, and surfaces with their sums for ParaView.
+// View factors as files: a table of pairs, a legend of surfaces, a sparse matrix for SciPy, and the
+// input of uDALES.
 
 #include "io/files/provenance.h"
 #include "radiosity/engine/view_factors/view_factors.h"
@@ -11,8 +11,6 @@
 #include <vector>
 
 namespace hemilux {
-
-class Mesh;
 
 /// A row as the user knows it.
 struct FactorSurface {
@@ -29,6 +27,7 @@ struct FactorTable {
     std::span<const FactorSurface> surfaces; ///< by row
     std::vector<Open> columns;               ///< of what is open, those that are columns too
     const std::atomic<bool>* interrupted = nullptr;
+    bool has_pairs = true; ///< false: only what is open was computed
 
     [[nodiscard]] std::size_t size() const { return surfaces.size() + columns.size(); }
 };
@@ -56,11 +55,6 @@ void write_factor_npz(const std::string& path, const FactorTable& table, const P
 void write_udales_factors(const std::string& path, const FactorTable& table);
 /// Writes svf.inp of uDALES: a line of text, then the factor to the sky of each surface.
 void write_udales_sky(const std::string& path, const FactorTable& table);
-
-/// Writes the facets as cells with `surface`, `area`, `sky`, `ground`, `back`, their standard
-/// errors, `row_sum` and `unlisted_bound` of the surface that they belong to.
-void write_factor_vtu(const std::string& path, const Mesh& mesh,
-                      std::span<const std::uint32_t> row_of, const FactorTable& table);
 
 /// Writes the whole matrix as a dense NumPy array.
 void write_dense_factors(const std::string& path, const FactorTable& table);

@@ -178,6 +178,21 @@ TEST_CASE("viewfactors names surfaces that see nothing but backs") {
     CHECK_THAT(outcome.err, Contains("1 surface sees nothing but backs of faces ('0')"));
 }
 
+TEST_CASE("viewfactors of the sky alone computes no other factors") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    const auto outcome = place.hemilux("viewfactors box.obj --by group --of sky --error .5% -o "
+                                       "svf.inp.001 -o s.vtu --legend s.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("2 surfaces of ") && Contains("sky and ground: 0."));
+    const auto legend = rows_of(place.read("s.csv"));
+    CHECK(legend[1][1] == "floor");
+    CHECK(std::stod(legend[1][13]) == Approx(.19982490).epsilon(.015));
+    CHECK(std::stod(legend[1][14]) < .005 * .2);
+    CHECK(legend[1][19].empty()); // the sum of the row is not known
+    test::check_fails(place, 1, "viewfactors box.obj --of sky -o a.csv", "svf.inp... or .vtu");
+}
+
 TEST_CASE("viewfactors says what is wrong with what it is asked") {
     const Workplace place;
     place.write("box.obj", open_box);

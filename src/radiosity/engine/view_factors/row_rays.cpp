@@ -3,8 +3,10 @@
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/rays/shot.h"
+#include "radiosity/paper/solving/solver.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace hemilux {
@@ -49,6 +51,41 @@ void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
         const double least = share > 0 ? .5 / rays : 0;
         view.open[open] = {share, std::max(std::sqrt(variance), least)};
     }
+}
+
+OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, double error, std::uint64_t seed,
+                          int up, const Workers& workers, Monitor& monitor) {
+    constexpr std::uint32_t first_rays = 1024, most_rays = 1 << 18;
+    constexpr double least_share = .01;
+    const std::size_t patches = mesh.patches().size();
+    const auto excess = [&](const OpenShare& share) {
+        return share.standard_error / (error * std::max(share.factor, least_share));
+    };
+    OpenViews views;
+    views.open.resize(patches);
+    std::atomic<std::uint64_t> traced{0};
+    workers.for_chunks_with(
+        patches, 16, [&] { return RowRays(mesh, tracer, seed, up); },
+        [&](RowRays& row, std::size_t begin, std::size_t end) {
+            RowView view;
+            for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
+                for (std::uint32_t rays = first_rays;;) {
+                    row.trace(static_cast<std::uint32_t>(i), rays, view);
+                    traced += rays;
+                    const double too_large = std::max(excess(view.open[0]), excess(view.open[1]));
+                    if (too_large <= 1 || rays == most_rays)
+                        break;
+                    // The error falls about as the power -0.6 of the rays.
+                    const double wanted = rays * std::pow(too_large, 1 / .6);
+                    while (rays < wanted && rays < most_rays)
+                        rays *= 2;
+                }
+                views.open[i] = view.open;
+            }
+        });
+    views.rays = traced;
+    monitor.rays += views.rays;
+    return views;
 }
 
 } // namespace hemilux

@@ -3,6 +3,7 @@
 // the backs of faces.
 
 #include "bvh/tracer.h"
+#include "parallel/workers.h"
 
 #include <array>
 #include <cstdint>
@@ -11,6 +12,7 @@
 namespace hemilux {
 
 class Mesh;
+struct Monitor;
 
 /// What a row of factors has besides patches.
 enum class Open : std::uint8_t {
@@ -51,5 +53,18 @@ class RowRays {
     std::vector<Ray> rays_;
     std::vector<std::uint32_t> receivers_;
 };
+
+/// Sky, ground and backs of all patches, without factors between them.
+struct OpenViews {
+    std::vector<std::array<OpenShare, opens>> open; ///< by patch
+    std::uint64_t rays = 0;
+};
+
+/// Traces rays of each patch until the standard errors of its sky and its ground are at most
+/// `error` of these, or of .01 where they are smaller. A patch gets 262 144 rays at most. The
+/// result is void if the monitor was interrupted.
+[[nodiscard]] OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, double error,
+                                        std::uint64_t seed, int up, const Workers& workers,
+                                        Monitor& monitor);
 
 } // namespace hemilux
