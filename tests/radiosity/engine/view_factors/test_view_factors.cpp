@@ -91,7 +91,7 @@ TEST_CASE("View factors are within their errors of brute force") {
         const bool exact = factors.standard_error[k] == 0;
         if (factors.factor[k] < 1e-3 || (exact && pairs - partly >= 20))
             continue;
-        const OpenShare truth = by_brute_force(city.model, i, factors.column[k], 10000);
+        const OpenShare truth = by_brute_force(city.model, i, factors.column[k], 4000);
         const double error = std::hypot(truth.standard_error, factors.standard_error[k]);
         const double z = (factors.factor[k] - truth.factor) / error;
         CHECK(std::abs(z) < 4.5); // 60 pairs, one in 100 000 by chance each
