@@ -10,6 +10,7 @@
 #include "app/running/signals.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
+#include "app/settings/view_factor_settings.h"
 #include "app/terminal/log.h"
 #include "app/terminal/print.h"
 #include "io/files/error.h"
@@ -55,8 +56,8 @@ std::vector<std::string> arguments_of(int argc, const char* const* argv) {
 Provenance provenance(const Command& command, std::uint64_t seed) {
     constexpr auto beside = std::to_array<std::string_view>(
         {"--output", "--stats", "--steps-log", "--error-map", "--points-output", "--report",
-         "--every-step", "--threads", "--memory", "--checkpoint", "--every", "--resume", "--quiet",
-         "--verbose", "--config"});
+         "--every-step", "--legend", "--threads", "--memory", "--checkpoint", "--every", "--resume",
+         "--quiet", "--verbose", "--config"});
     return {"hemilux " HEMILUX_VERSION, "hemilux " + command.text_given(beside), seed};
 }
 
@@ -93,6 +94,7 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     solve_settings.ranks = bake_settings.ranks = compare_settings.ranks = &ranks;
     DensitySettings density_settings;
     FormFactorSettings formfactor_settings;
+    ViewFactorSettings viewfactor_settings;
     InfoSettings info_settings;
     program.program().add_version("-V,--version", "hemilux " HEMILUX_VERSION,
                                   "Display program version information and exit");
@@ -101,6 +103,7 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     const Command compare_command = add_compare_command(program, compare_settings);
     const Command density_command = add_density_command(program, density_settings);
     const Command formfactors_command = add_formfactors_command(program, formfactor_settings);
+    const Command viewfactors_command = add_viewfactors_command(program, viewfactor_settings);
     add_info_command(program, info_settings);
     program.program().add_answer(
         "--print", "man|bash|zsh|fish", "Print the manual page, or the completions of a shell",
@@ -144,6 +147,12 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     if (formfactors_command.parsed()) {
         formfactor_settings.given = formfactors_command.options_given();
         return formfactors(formfactor_settings);
+    }
+    if (viewfactors_command.parsed()) {
+        viewfactor_settings.from =
+            provenance(viewfactors_command, viewfactor_settings.options.seed);
+        viewfactor_settings.given = viewfactors_command.options_given();
+        return viewfactors(viewfactor_settings);
     }
     return info(info_settings);
 }

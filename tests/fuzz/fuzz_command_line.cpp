@@ -2,6 +2,7 @@
 
 #include "app/command_line/options.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/view_factor_settings.h"
 
 #include <cstdint>
 #include <sstream>
@@ -21,6 +22,7 @@ class Program {
         add_compare_command(program_, now_.compare);
         add_density_command(program_, now_.density);
         add_formfactors_command(program_, now_.formfactors);
+        add_viewfactors_command(program_, now_.viewfactors);
         add_info_command(program_, now_.info);
         fresh_ = now_;
     }
@@ -39,6 +41,7 @@ class Program {
         CompareSettings compare;
         DensitySettings density;
         FormFactorSettings formfactors;
+        ViewFactorSettings viewfactors;
         InfoSettings info;
     };
     Arguments program_{"hemilux", ""};

@@ -103,6 +103,24 @@ Option add_scene_options(Command command, SceneSettings& scene) {
     return max_edge;
 }
 
+void add_geometry_options(Command command, SceneSettings& scene) {
+    command.add_text("SCENE", "FILE", scene.path, "the scene: .obj, .gltf, .glb or .stl")
+        .required();
+    scene.textures = false;
+    command = command.under(scene_group);
+    command.add_text(
+        "--config", "FILE", scene.config,
+        "options from a TOML file, as error = \"1%\"; those of the command line come first");
+    add_number(command, "--max-edge", "LENGTH", scene.mesh.max_edge, positive,
+               "divide faces until no edge is longer; rows stay whole [not divided]");
+    add_choice<Sides>(
+        command, "--sides",
+        {{Sides::automatic, "auto"}, {Sides::front, "front"}, {Sides::both, "both"}},
+        "which sides of faces see: both of those that the file calls double-sided, else the front; "
+        "the front of all; both of all [auto]",
+        [&scene](Sides chosen) { choose_sides(scene, chosen); });
+}
+
 void add_memory_option(Command command, SceneSettings& scene) {
     add_parsed(
         command, "--memory", "BYTES", "stop before a scene needs more; k, M, G or T may follow",

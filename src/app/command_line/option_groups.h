@@ -18,6 +18,9 @@ inline constexpr const char* own_group = "Of one method"; ///< a few count too
 
 /// Adds SCENE and, under a heading of their own, the options that change it; returns --max-edge.
 Option add_scene_options(Command command, SceneSettings& scene);
+/// Adds SCENE and the options that change its shapes alone, for subcommands to which light means
+/// nothing.
+void add_geometry_options(Command command, SceneSettings& scene);
 /// Adds --memory, for the subcommands that solve.
 void add_memory_option(Command command, SceneSettings& scene);
 /// Adds --depth and --threshold, which say how hemispheres are divided.

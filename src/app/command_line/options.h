@@ -6,12 +6,15 @@
 
 namespace hemilux {
 
+struct ViewFactorSettings; // view_factor_settings.h
+
 /// Each of these adds a subcommand that fills the settings while the arguments are parsed.
 Command add_solve_command(Arguments& program, SolveSettings& settings);
 Command add_bake_command(Arguments& program, SolveSettings& settings);
 Command add_compare_command(Arguments& program, CompareSettings& settings);
 Command add_density_command(Arguments& program, DensitySettings& settings);
 Command add_formfactors_command(Arguments& program, FormFactorSettings& settings);
+Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings);
 Command add_info_command(Arguments& program, InfoSettings& settings);
 
 } // namespace hemilux

@@ -5,10 +5,13 @@
 
 namespace hemilux {
 
+struct ViewFactorSettings; // view_factor_settings.h
+
 int solve(const SolveSettings& settings);
 int compare(const CompareSettings& settings);
 int density(DensitySettings settings);
 int formfactors(const FormFactorSettings& settings);
+int viewfactors(const ViewFactorSettings& settings);
 int info(const InfoSettings& settings);
 
 } // namespace hemilux

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <vector>
 
 namespace hemilux {
@@ -155,6 +156,58 @@ std::size_t WideBvh::triangles_around(const Vec3& point) const {
                 pending.push_back(node.child[k]);
     }
     return triangles;
+}
+
+// Floats decide which boxes are outside, by so much that their rounding does not matter.
+void WideBvh::facets_within(const Shaft& shaft, std::vector<std::uint32_t>& facets) const {
+    if (built_.leaves.size() == 0)
+        return;
+    struct Side {
+        std::array<float, 3> normal;
+        std::array<std::size_t, 3> plane; ///< of a box, where it reaches farthest inside
+        float offset;
+    };
+    constexpr double slack = 1e-6;
+    std::array<Side, std::tuple_size_v<decltype(Shaft::side)>> sides;
+    for (std::size_t s = 0; s < shaft.size; ++s) {
+        const auto& [normal, offset] = shaft.side[s];
+        sides[s].offset = static_cast<float>(offset * space_.shrink + slack);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            sides[s].normal[axis] = static_cast<float>(normal[static_cast<int>(axis)]);
+            sides[s].plane[axis] = 2 * axis + (sides[s].normal[axis] > 0 ? 0 : 1);
+        }
+    }
+    const std::size_t before = facets.size();
+    std::array<std::uint32_t, wide::stack_size> pending;
+    std::size_t size = 0;
+    pending[size++] = tree().root;
+    while (size > 0) {
+        const std::uint32_t index = pending[--size];
+        if ((index & flag) != 0) {
+            for (const std::uint32_t slot : built_.leaves.data()[index & ~flag].slot)
+                if (slot != wide::no_facet)
+                    facets.push_back(slot & ~flag);
+            continue;
+        }
+        const wide::Node& node = built_.nodes.data()[index];
+        std::array<float, wide::width> beyond; // of all sides, the farthest
+        for (unsigned k = 0; k < wide::width; ++k)
+            beyond[k] = node.plane[0][k] <= node.plane[1][k] ? -1.0f : 1.0f; // absent: outside
+        for (std::size_t s = 0; s < shaft.size; ++s) {
+            const Side& side = sides[s];
+            const auto *x = node.plane[side.plane[0]], *y = node.plane[side.plane[1]],
+                       *z = node.plane[side.plane[2]];
+            for (unsigned k = 0; k < wide::width; ++k)
+                beyond[k] = std::max(beyond[k], side.normal[0] * x[k] + side.normal[1] * y[k] +
+                                                    side.normal[2] * z[k] - side.offset);
+        }
+        for (unsigned k = 0; k < wide::width; ++k)
+            if (beyond[k] <= 0)
+                pending[size++] = node.child[k];
+    }
+    const auto added = facets.begin() + static_cast<std::ptrdiff_t>(before);
+    std::sort(added, facets.end());
+    facets.erase(std::unique(added, facets.end()), facets.end());
 }
 
 wide::Tree WideBvh::tree() const {

@@ -4,8 +4,11 @@
 // It answers as Bvh and BruteForce do, bit for bit.
 
 #include "bvh/wide/float_ray.h"
+#include "bvh/wide/shaft.h"
 #include "bvh/wide/wide_build.h"
 #include "parallel/instruction_set.h"
+
+#include <vector>
 
 namespace hemilux {
 
@@ -32,6 +35,10 @@ class WideBvh final : public Tracer {
     /// Returns how many triangles a ray that begins or passes there has to be tested against at
     /// least: those of the leaves whose boxes hold the point.
     [[nodiscard]] std::size_t triangles_around(const Vec3& point) const;
+
+    /// Appends the facets that the tree cannot tell to be outside of a shaft, ascending and each
+    /// once.
+    void facets_within(const Shaft& shaft, std::vector<std::uint32_t>& facets) const;
 
     [[nodiscard]] const BvhQuality& quality() const { return built_.quality; }
 

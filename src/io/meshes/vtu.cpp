@@ -1,8 +1,7 @@
 #include "io/meshes/vtu.h"
 
 #include "geometry/frame.h"
-#include "io/files/atomic_file.h"
-#include "io/files/little_endian.h"
+#include "io/meshes/vtk_grid.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <span>
@@ -10,58 +9,6 @@
 
 namespace hemilux {
 namespace {
-
-/// The XML before the bytes, and the bytes: each array follows its length in bytes.
-class Grid {
-  public:
-    template <class Number>
-    void add(const std::string& name, int components, const std::vector<Number>& numbers) {
-        xml_ += "<DataArray type=\"" + type_of(Number{}) + "\" Name=\"" + name +
-                "\" NumberOfComponents=\"" + std::to_string(components) +
-                "\" format=\"appended\" offset=\"" + std::to_string(bytes_.size()) + "\"/>\n";
-        append_number(bytes_, std::uint64_t{numbers.size() * sizeof(Number)});
-        for (const Number number : numbers)
-            append_number(bytes_, number);
-    }
-
-    void add(const std::string& name, const std::vector<Vec3>& vectors) {
-        std::vector<double> numbers;
-        numbers.reserve(3 * vectors.size());
-        for (const Vec3& vector : vectors)
-            numbers.insert(numbers.end(), {vector.x, vector.y, vector.z});
-        add(name, 3, numbers);
-    }
-
-    /// Adds letters as numbers, each text with a 0 after it.
-    void add_texts(const std::string& name, const std::vector<std::string>& texts) {
-        xml_ += "<DataArray type=\"String\" Name=\"" + name + "\" NumberOfTuples=\"" +
-                std::to_string(texts.size()) + "\" format=\"ascii\">";
-        for (const std::string& text : texts) {
-            for (const char c : text)
-                xml_ += std::to_string(static_cast<unsigned char>(c)) + " ";
-            xml_ += "0 ";
-        }
-        xml_ += "</DataArray>\n";
-    }
-
-    void add(const std::string& line) { xml_ += line + "\n"; }
-
-    void write(const std::string& path) const {
-        AtomicFile file(path);
-        file.write(xml_ + "<AppendedData encoding=\"raw\">\n_");
-        file.write(bytes_);
-        file.write("\n</AppendedData>\n</VTKFile>\n");
-        file.commit();
-    }
-
-  private:
-    static std::string type_of(double) { return "Float64"; }
-    static std::string type_of(std::uint8_t) { return "UInt8"; }
-    static std::string type_of(std::uint32_t) { return "UInt32"; }
-    static std::string type_of(std::uint64_t) { return "UInt64"; }
-
-    std::string xml_, bytes_;
-};
 
 /// The patches that are cells, as columns.
 class Cells {
@@ -84,7 +31,7 @@ class Cells {
         return values;
     }
 
-    void add_shapes(Grid& grid) const {
+    void add_shapes(VtkGrid& grid) const {
         constexpr std::uint8_t vtk_triangle = 5, vtk_polygon = 7, vtk_quad = 9;
         std::vector<std::uint32_t> corners;
         std::vector<std::uint64_t> ends;
@@ -105,7 +52,7 @@ class Cells {
                  }));
     }
 
-    void add_columns(Grid& grid, const Solution& solution) const {
+    void add_columns(VtkGrid& grid, const Solution& solution) const {
         const auto patch = [&](std::uint32_t i) -> const Patch& { return mesh_.patches()[i]; };
         const auto facet = [&](std::uint32_t i) { return mesh_.scene().facets[patch(i).facet]; };
         const LocalFrame& frame = mesh_.frame();
@@ -142,7 +89,7 @@ class Cells {
     std::vector<std::uint32_t> patch_;
 };
 
-void add_names(Grid& grid, const Scene& scene, const Provenance& from) {
+void add_names(VtkGrid& grid, const Scene& scene, const Provenance& from) {
     std::vector<std::string> materials;
     for (const Material& material : scene.materials)
         materials.push_back(material.name);
@@ -161,7 +108,7 @@ void write_vtu(const std::string& path, const Mesh& mesh, const CornerClasses& c
     std::vector<Vec3> points;
     for (const Vec3& local : classes.position)
         points.push_back(mesh.frame().to_world(local));
-    Grid grid;
+    VtkGrid grid;
     grid.add("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
              "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n"
              "<FieldData>");

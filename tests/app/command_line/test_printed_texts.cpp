@@ -35,7 +35,7 @@ TEST_CASE("the manual and all completions know each option of --help") {
     const std::string fish = place.hemilux("help --print fish").out;
     std::set<std::string> names;
     for (const char* const command :
-         {"solve", "bake", "compare", "density", "formfactors", "info"}) {
+         {"solve", "bake", "compare", "density", "formfactors", "viewfactors", "info"}) {
         const std::string help = place.hemilux(std::string(command) + " --help").out;
         const std::regex declared("\n  (?:-[a-zA-Z],)?--([a-z0-9-]+)");
         for (std::sregex_iterator match(help.begin(), help.end(), declared), end; match != end;
@@ -87,7 +87,7 @@ TEST_CASE("other programs take the printed texts without a complaint") {
 TEST_CASE("help is 80 columns wide but for commands to copy") {
     const Workplace place;
     for (const char* const command :
-         {"", "solve", "bake", "compare", "density", "formfactors", "info"}) {
+         {"", "solve", "bake", "compare", "density", "formfactors", "viewfactors", "info"}) {
         std::istringstream lines(place.hemilux(std::string(command) + " --help").out);
         for (std::string line; std::getline(lines, line);)
             if (!line.starts_with("  hemilux ")) {

@@ -1,0 +1,132 @@
+// Reported errors of view factors against true ones: a number of pairs of a scene, half of them
+// partly hidden, by brute force.
+//
+//     hemilux_view_factor_errors SCENE.obj [PAIRS] [ERROR] [SEED]
+//
+// It prints the processor time of the factors, the root mean square of (factor - truth) / error,
+// the share within two errors, and the relative errors of the hidden ones. Factors are those of at
+// least 0.001.
+
+#include "bvh/wide/wide_bvh.h"
+#include "geometry/polygon_sampler.h"
+#include "io/scene_files/obj.h"
+#include "radiosity/engine/form_factors/exchange_area.h"
+#include "radiosity/engine/view_factors/view_factors.h"
+#include "radiosity/light/layers/layered_mesh.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/solving/solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <numeric>
+#include <vector>
+
+namespace {
+
+using namespace hemilux;
+
+constexpr double least_factor = 1e-3;
+
+double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
+
+/// The factor between two patches: the contour integral times the share of the kernel that 2^18
+/// pairs of points see of each other, in 16 independent batches.
+OpenShare brute_force(const Mesh& mesh, const Tracer& tracer, std::uint32_t i, std::uint32_t j) {
+    constexpr int batches = 16, of_batch = 1 << 14;
+    constexpr std::array<double, 4> step = {.8566748838545029, .7338918566271260, .6287067210378087,
+                                            .5385972572236101};
+    const Patch &a = mesh.patches()[i], &b = mesh.patches()[j];
+    const PolygonSampler of_a(a.shape), of_b(b.shape);
+    std::array<double, batches> share{};
+    for (std::uint64_t batch = 0; batch < batches; ++batch) {
+        Rng random(hash_words({99, i, j, batch}));
+        std::array<double, 4> u;
+        for (double& x : u)
+            x = random.uniform();
+        double seen = 0, all = 0;
+        for (int k = 0; k < of_batch; ++k) {
+            const Vec3 x = of_a.sample({u[0], u[1]}), y = of_b.sample({u[2], u[3]}), d = y - x;
+            const double square = glm::dot(d, d);
+            const double kernel = std::max(0.0, glm::dot(d, a.normal)) *
+                                  std::max(0.0, -glm::dot(d, b.normal)) / (square * square);
+            const Ray ray{.origin = x, .direction = d, .t_max = 1 - 1e-12, .from = a.facet};
+            all += kernel;
+            seen += kernel > 0 && !tracer.occluded(ray, b.facet) ? kernel : 0;
+            for (std::size_t axis = 0; axis < 4; ++axis)
+                u[axis] += step[axis] - std::floor(u[axis] + step[axis]);
+        }
+        share[batch] = all > 0 ? seen / all : 0;
+    }
+    const double mean = std::accumulate(share.begin(), share.end(), 0.0) / batches;
+    double squares = 0;
+    for (const double x : share)
+        squares += (x - mean) * (x - mean);
+    const double free = exchange_area(a.shape, b.shape) / a.area;
+    return {free * mean, free * std::sqrt(squares / (batches * (batches - 1)))};
+}
+
+struct Errors {
+    int pairs = 0, within_two = 0, hidden = 0;
+    double squares = 0, relative_squares = 0, worst = 0;
+
+    void add(double factor, double standard_error, const OpenShare& truth) {
+        // Exact factors are so to 1e-9.
+        const double error = std::hypot(standard_error, truth.standard_error, 1e-9);
+        const double z = (factor - truth.factor) / error;
+        ++pairs;
+        within_two += std::abs(z) < 2;
+        squares += z * z;
+        if (!(standard_error > 0))
+            return;
+        const double relative = factor / truth.factor - 1;
+        ++hidden;
+        relative_squares += relative * relative;
+        worst = std::max(worst, std::abs(relative));
+    }
+};
+
+} // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 2) {
+        std::fprintf(stderr,
+                     "usage: hemilux_view_factor_errors SCENE.obj [PAIRS] [ERROR] [SEED]\n");
+        return 1;
+    }
+    const int pairs = argc > 2 ? std::atoi(argv[2]) : 200;
+    const double error = argc > 3 ? std::atof(argv[3]) : .015;
+    const auto seed = static_cast<std::uint64_t>(argc > 4 ? std::atol(argv[4]) : 1);
+    const Mesh mesh = layered_mesh(read_obj(argv[1], {}, false).scene, {});
+    const double start = processor_seconds();
+    const WideBvh tree(mesh.soup_to_trace(), {.threads = 1});
+    std::vector<std::uint32_t> row_of(mesh.patches().size());
+    std::iota(row_of.begin(), row_of.end(), 0u);
+    Monitor monitor;
+    const ViewFactors factors = view_factors(
+        mesh, tree, row_of, row_of.size(),
+        {.tolerance = relative_above(error, least_factor), .seed = seed}, Workers(1), monitor);
+    std::printf("%zu patches, %zu factors, %.2f s of a processor\n", factors.rows(),
+                factors.column.size(), processor_seconds() - start);
+    Errors errors;
+    Rng random(hash_words({seed, 17}));
+    int exact = 0;
+    for (int tries = 0; errors.pairs < pairs && tries < 1000 * pairs; ++tries) {
+        const auto i = static_cast<std::uint32_t>(random.uniform() * double(factors.rows()));
+        const std::size_t begin = factors.row_begin[i], end = factors.row_begin[i + 1];
+        const auto k = begin + static_cast<std::size_t>(random.uniform() * double(end - begin));
+        if (begin == end || factors.factor[k] < least_factor)
+            continue;
+        if (factors.standard_error[k] == 0 && exact++ >= pairs / 2)
+            continue;
+        errors.add(factors.factor[k], factors.standard_error[k],
+                   brute_force(mesh, tree, i, factors.column[k]));
+    }
+    std::printf("%d pairs: z rms %.3f, within two errors %.1f %%\n", errors.pairs,
+                std::sqrt(errors.squares / errors.pairs), 100.0 * errors.within_two / errors.pairs);
+    std::printf("%d partly hidden: relative error %.2f %% rms, %.1f %% at most\n", errors.hidden,
+                100 * std::sqrt(errors.relative_squares / errors.hidden), 100 * errors.worst);
+}

@@ -1,0 +1,84 @@
+#include "app/command_line/option_groups.h"
+#include "app/command_line/option_kinds.h"
+#include "app/command_line/options.h"
+#include "app/settings/factor_aim.h"
+
+#include <bit>
+
+namespace hemilux {
+
+namespace {
+
+constexpr const char* viewfactors_examples = R"(Examples:
+  hemilux viewfactors room.obj -o factors.csv --legend surfaces.csv
+  hemilux viewfactors room.obj --by group --sky -o factors.npz
+  hemilux viewfactors room.obj --error 0.5% --of above:0.01 -o factors.npz
+  hemilux viewfactors city.stl -o vfsparse.inp.001 -o svf.inp.001
+  hemilux viewfactors city.stl --of sky -o sky.vtu --legend sky.csv
+)";
+
+std::optional<std::uint32_t> rays_from(const std::string& text) {
+    const std::optional<std::uint64_t> value = parse_whole(text);
+    return value && std::has_single_bit(*value) && *value >= 256 && *value <= (1u << 20)
+               ? std::optional(static_cast<std::uint32_t>(*value))
+               : std::nullopt;
+}
+
+std::optional<std::string> output_from(const std::string& path) {
+    return factor_file_of(path) ? std::optional(path) : std::nullopt;
+}
+
+} // namespace
+
+Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings) {
+    const Command command = program.add_command(
+        "viewfactors", "write the view factors between surfaces, each with its error");
+    add_geometry_options(command, settings.scene);
+    const Command method = command.under(method_group);
+    add_choice(method, "--by", settings.by,
+               {{FactorRows::face, "face"},
+                {FactorRows::group, "group"},
+                {FactorRows::material, "material"}},
+               "what a row stands for: each side of a face of the file, a group or a material "
+               "[face]");
+    add_error(method, "--error", settings.error,
+              "the standard error that is aimed at, relative [1%]");
+    add_parsed(
+        method, "--of", "above:F|rows|largest|pair:A,B|sky",
+        "what it is of: factors of at least F, their root mean square; the factors of each "
+        "row together; the largest factor of each row; the factor between two surfaces "
+        "[above:0.001]",
+        "above:F with F from 1e-6 to 1, rows, largest, pair:A,B or sky",
+        [](const std::string& text) { return parse_factor_aim(text); },
+        [&settings](const FactorAim& aim) { settings.aim = aim; });
+    add_parsed(method, "--rays", "N",
+               "rays from each face, a power of two, that find who sees whom [1024]",
+               "a power of two from 256 to 1048576", rays_from,
+               [&settings](std::uint32_t rays) { settings.rays = rays; });
+    method.add_flag("--sky", settings.sky, "make the sky a column: what leaves the scene upwards");
+    method.add_flag("--ground", settings.ground,
+                    "make the ground a column: what leaves the scene downwards");
+    add_choice<int>(method, "--up", {{0, "x"}, {1, "y"}, {2, "z"}},
+                    "the axis that points to the sky [y for glTF, else z]",
+                    [&settings](int axis) { settings.up = axis; });
+    add_random_options(method, settings.options);
+    const Command output = command.under(output_group);
+    add_parsed(
+        output, "-o,--output", "FILE",
+        "i,j,F,standard_error .csv; sparse matrix for SciPy .npz; dense NumPy array .npy; "
+        "surfaces for ParaView .vtu; vfsparse.inp... and svf.inp... for uDALES; repeatable",
+        "a file name that ends with .csv, .npz, .npy or .vtu, or begins with vfsparse.inp or "
+        "svf.inp",
+        output_from, [&settings](const std::string& path) { settings.outputs.push_back(path); })
+        .repeatable()
+        .required();
+    add_path(
+        output, "--legend", "FILE",
+        "a table of the surfaces: name, face, group, area, centre, normal, sky, sum of the row",
+        ".csv", [&settings](const std::string& path) { settings.legend = path; });
+    add_verbosity_options(command, settings.verbosity);
+    command.end_help_with(viewfactors_examples);
+    return command;
+}
+
+} // namespace hemilux

@@ -1,0 +1,27 @@
+#pragma once
+// The rows of a matrix of view factors: which patch belongs to which, and what they are called.
+
+#include "app/settings/view_factor_settings.h"
+#include "io/results/view_factor_files.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+struct FactorSurfaces {
+    std::vector<std::uint32_t> row_of; ///< by patch
+    std::vector<FactorSurface> rows;
+
+    /// Returns the row of this name; empty where there is none.
+    [[nodiscard]] std::optional<std::uint32_t> named(const std::string& name) const;
+};
+
+/// Makes a row for each side of a face that has patches, in the order of the file, front first, or
+/// for each group or material in use. A face is named by its number in the file, from 0, with
+/// `back` after it where its back is meant.
+[[nodiscard]] FactorSurfaces factor_surfaces(const Mesh& mesh, FactorRows by);
+
+} // namespace hemilux

@@ -1,0 +1,42 @@
+#pragma once
+// The settings of `hemilux viewfactors`, once the command line has been read.
+
+#include "app/settings/settings.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+/// The surfaces that rows of view factors stand for.
+enum class FactorRows { face, group, material };
+
+/// The factors whose error is meant by --error.
+struct FactorAim {
+    enum class Of { above, rows, largest, pair, sky };
+    Of of = Of::above;
+    double least = 1e-3;  ///< of `above`: the smallest factor that counts [-]
+    std::string from, to; ///< of `pair`: names of surfaces
+};
+
+struct ViewFactorSettings {
+    SceneSettings scene;
+    SolveOptions options; ///< seed, threads
+    FactorRows by = FactorRows::face;
+    double error = .01;               ///< relative, or of a row's sum with FactorAim::Of::rows [-]
+    FactorAim aim;                    ///< what it is of
+    std::uint32_t rays = 1024;        ///< from each patch, to find who sees whom; a power of two
+    bool sky = false, ground = false; ///< they are columns
+    std::optional<int> up;            ///< axis; empty: 1 for glTF, else 2
+    std::vector<std::string> outputs;
+    std::string legend; ///< path; empty: none
+    Provenance from;    ///< provenance of the files
+    std::vector<GivenOption> given;
+    Verbosity verbosity = Verbosity::normal;
+
+    static constexpr double max_dense_bytes = 1e9;
+};
+
+} // namespace hemilux

@@ -1,0 +1,244 @@
+#include "io/results/view_factor_files.h"
+
+#include "io/files/atomic_file.h"
+#include "io/files/error.h"
+#include "io/files/little_endian.h"
+#include "io/files/stored_zip.h"
+#include "io/results/csv.h"
+#include "io/results/factor_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace hemilux {
+namespace {
+
+void check_interrupt(const FactorTable& table) {
+    if (table.interrupted && *table.interrupted)
+        throw Interrupted();
+}
+
+/// Calls use(i, j, F, standard error) for the entries of a row, those of what is open at its end.
+template <class Use>
+void for_row(const FactorTable& table, std::uint32_t i, const Use& use) {
+    const ViewFactors& factors = table.factors;
+    for (std::size_t k = factors.row_begin[i]; k < factors.row_begin[i + 1]; ++k)
+        if (factors.factor[k] > 0)
+            use(i, factors.column[k], factors.factor[k], factors.standard_error[k]);
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+        const OpenShare& open = factors.open[i][static_cast<std::size_t>(table.columns[k])];
+        if (open.factor > 0)
+            use(i, static_cast<std::uint32_t>(factors.rows() + k), open.factor,
+                open.standard_error);
+    }
+}
+
+void add(std::string& line, double value) {
+    line += ',';
+    csv::append_number(line, value);
+}
+
+void add(std::string& line, const std::string& text) {
+    line += ',';
+    csv::append_text(line, text);
+}
+
+/// The header of an .npy file of format version 1.0 (NumPy Enhancement Proposal 1).
+std::string npy_header(const std::string& type, const std::string& shape) {
+    std::string text =
+        "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + shape + "), }";
+    constexpr std::size_t before = 10, multiple = 64;
+    while ((before + text.size() + 1) % multiple != 0)
+        text += ' ';
+    text += '\n';
+    std::string bytes = "\x93NUMPY";
+    bytes += '\x01';
+    bytes += '\0';
+    append_number(bytes, static_cast<std::uint16_t>(text.size()));
+    return bytes + text;
+}
+
+template <class Values>
+void add_array(StoredZip& zip, const std::string& name, const std::string& type,
+               const Values& values) {
+    std::string bytes;
+    for (const auto value : values)
+        append_number(bytes, value);
+    zip.add(name + ".npy", {npy_header(type, std::to_string(values.size()) + ","), bytes});
+}
+
+/// Adds texts as an array of strings of one length, in UTF-8.
+void add_texts(StoredZip& zip, const std::string& name, const std::vector<std::string>& texts) {
+    std::size_t length = 1;
+    for (const std::string& text : texts)
+        length = std::max(length, text.size());
+    std::string bytes;
+    for (const std::string& text : texts)
+        bytes += text + std::string(length - text.size(), '\0');
+    zip.add(name + ".npy",
+            {npy_header("|S" + std::to_string(length), std::to_string(texts.size()) + ","), bytes});
+}
+
+/// Adds one text as an array without dimensions.
+void add_text(StoredZip& zip, const std::string& name, const std::string& text) {
+    const std::string kept = text.empty() ? " " : text;
+    zip.add(name + ".npy", {npy_header("|S" + std::to_string(kept.size()), ""), kept});
+}
+
+} // namespace
+
+const char* name_of(Open open) {
+    constexpr std::array<const char*, opens> names = {"sky", "ground", "back"};
+    return names[static_cast<std::size_t>(open)];
+}
+
+void write_factor_pairs(const std::string& path, const FactorTable& table) {
+    AtomicFile file(path);
+    file.write("i,j,F,standard_error\n");
+    std::string line;
+    for (std::uint32_t i = 0; i < table.factors.rows(); ++i) {
+        check_interrupt(table);
+        for_row(table, i,
+                [&](std::uint32_t row, std::uint32_t column, double factor, double error) {
+                    line.clear();
+                    csv::append_number(line, std::uint64_t{row});
+                    line += ',';
+                    csv::append_number(line, std::uint64_t{column});
+                    add(line, factor);
+                    add(line, error);
+                    file.write(line + '\n');
+                });
+    }
+    file.commit();
+}
+
+void write_factor_legend(const std::string& path, const FactorTable& table) {
+    AtomicFile file(path);
+    std::string header = "surface,name,face,side,material,group,area,x,y,z,nx,ny,nz";
+    for (std::size_t k = 0; k < opens; ++k) {
+        const std::string name = name_of(static_cast<Open>(k));
+        header += "," + name + "," + name + "_standard_error";
+    }
+    file.write(header + ",row_sum,unlisted_bound\n");
+    for (std::uint32_t i = 0; i < table.factors.rows(); ++i) {
+        const FactorSurface& surface = table.surfaces[i];
+        std::string line;
+        csv::append_number(line, std::uint64_t{i});
+        add(line, surface.name);
+        line += "," + surface.face;
+        add(line, surface.side);
+        add(line, surface.material);
+        add(line, surface.group);
+        add(line, surface.area);
+        csv::append_fields(line, surface.centre);
+        csv::append_fields(line, surface.normal);
+        for (const OpenShare& open : table.factors.open[i]) {
+            add(line, open.factor);
+            add(line, open.standard_error);
+        }
+        if (table.has_pairs) {
+            add(line, table.factors.row_sum(i));
+            add(line, table.factors.unlisted_bound[i]);
+        } else {
+            line += ",,";
+        }
+        file.write(line + '\n');
+    }
+    for (std::size_t k = 0; k < table.columns.size(); ++k)
+        file.write(std::to_string(table.factors.rows() + k) + "," + name_of(table.columns[k]) +
+                   std::string(19, ',') + "\n");
+    file.commit();
+}
+
+void write_factor_npz(const std::string& path, const FactorTable& table, const Provenance& from) {
+    const std::uint64_t rows = table.size();
+    std::vector<std::uint64_t> begin(1, 0);
+    std::vector<std::uint32_t> column;
+    std::vector<double> factor, error;
+    for (std::uint32_t i = 0; i < table.factors.rows(); ++i) {
+        for_row(table, i, [&](std::uint32_t, std::uint32_t j, double f, double e) {
+            column.push_back(j);
+            factor.push_back(f);
+            error.push_back(e);
+        });
+        begin.push_back(column.size());
+    }
+    begin.resize(rows + 1, column.size());
+    check_interrupt(table);
+    StoredZip zip(path);
+    constexpr std::uint64_t most = 0x7fffffff;
+    if (column.size() <= most) { // SciPy wants both of one type
+        add_array(zip, "indices", "<i4", column);
+        std::vector<std::uint32_t> short_begin;
+        for (const std::uint64_t place : begin)
+            short_begin.push_back(static_cast<std::uint32_t>(place));
+        add_array(zip, "indptr", "<i4", short_begin);
+    } else {
+        add_array(zip, "indices", "<i8", std::vector<std::uint64_t>(column.begin(), column.end()));
+        add_array(zip, "indptr", "<i8", begin);
+    }
+    add_text(zip, "format", "csr");
+    add_array(zip, "shape", "<i8", std::array{rows, rows});
+    add_array(zip, "data", "<f8", factor);
+    add_array(zip, "standard_error", "<f8", error);
+    std::vector<double> area;
+    std::vector<std::string> names;
+    for (const FactorSurface& surface : table.surfaces) {
+        area.push_back(surface.area);
+        names.push_back(surface.name);
+    }
+    for (const Open open : table.columns)
+        names.emplace_back(name_of(open));
+    add_array(zip, "area", "<f8", area);
+    add_texts(zip, "name", names);
+    add_text(zip, "seed", std::to_string(from.seed));
+    add_text(zip, "command", from.command);
+    zip.commit();
+}
+
+void write_udales_factors(const std::string& path, const FactorTable& table) {
+    constexpr double least = 5e-9; // rounds to more than 0
+    AtomicFile file(path);
+    const ViewFactors& factors = table.factors;
+    std::array<char, 64> line;
+    for (std::uint32_t i = 0; i < factors.rows(); ++i) {
+        check_interrupt(table);
+        for (std::size_t k = factors.row_begin[i]; k < factors.row_begin[i + 1]; ++k) {
+            if (!(factors.factor[k] >= least))
+                continue;
+            std::snprintf(line.data(), line.size(), "%u %u %.8f\n", i + 1, factors.column[k] + 1,
+                          factors.factor[k]);
+            file.write(line.data());
+        }
+    }
+    file.commit();
+}
+
+void write_udales_sky(const std::string& path, const FactorTable& table) {
+    AtomicFile file(path);
+    file.write("# sky view factors\n");
+    std::array<char, 64> line;
+    for (const auto& open : table.factors.open) {
+        std::snprintf(line.data(), line.size(), "%.8f\n",
+                      open[static_cast<std::size_t>(Open::sky)].factor);
+        file.write(line.data());
+    }
+    file.commit();
+}
+
+void write_dense_factors(const std::string& path, const FactorTable& table) {
+    SparseMatrix matrix;
+    matrix.row_begin.push_back(0);
+    for (std::uint32_t i = 0; i < table.size(); ++i) {
+        if (i < table.factors.rows())
+            for_row(table, i, [&](std::uint32_t, std::uint32_t j, double factor, double) {
+                matrix.column.push_back(j);
+                matrix.value.push_back(factor);
+            });
+        matrix.row_begin.push_back(matrix.column.size());
+    }
+    write_npy(path, matrix, table.interrupted);
+}
+
+} // namespace hemilux

@@ -1,0 +1,343 @@
+#include "radiosity/engine/view_factors/find_exchange.h"
+
+#include "radiosity/engine/view_factors/line_samples.h"
+#include "radiosity/engine/view_factors/pair_hull.h"
+#include "radiosity/engine/view_factors/pair_rays.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solving/solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+namespace hemilux {
+namespace {
+
+/// A distance from a plane that counts as in it, in the unit of a scene in [-1,1]^3.
+constexpr double plane_rounding = 1e-9;
+
+/// The fewest and the most rays that look for each other between a pair that no ray of a row found.
+constexpr std::uint32_t min_probes = 2, max_probes = 32;
+
+/// A pair that needs no more rays than these is estimated by rays alone; so many are the least.
+constexpr double max_pair_rays = 24;
+constexpr std::uint32_t min_pair_rays = 4;
+
+/// Pairs whose factors are this share of their tolerance are not looked for.
+constexpr double smallest_searched = .1;
+
+/// Cells by which lines begin, and the most, in each of three dimensions.
+constexpr unsigned first_cells = 2, max_cells = 10;
+
+/// What finds the pairs of one row, with its memory; one for each thread.
+class RowPairs {
+  public:
+    RowPairs(const Mesh& mesh, const WideBvh& tree, const ExchangeOptions& options,
+             std::span<const FacePlane> faces, std::span<const std::vector<std::uint32_t>> seen)
+        : mesh_(mesh), tree_(tree), options_(options), faces_(faces), seen_(seen), rays_(tree),
+          probes_(tree), is_seen_(faces.size()) {}
+
+    /// Finds the pairs of a patch with those of higher index. `missed` gets for each the exchange
+    /// of other pairs like it that were not found, as the chance of finding it says.
+    void find(std::uint32_t i, std::vector<PairExchange>& pairs, std::vector<float>& missed);
+    [[nodiscard]] const ExchangeWork& work() const { return work_; }
+
+  private:
+    struct Candidate {
+        std::uint32_t to;
+        Facing facing;
+        double rough;
+    };
+    void look_for(std::uint32_t i);
+    void probe(std::uint32_t i);
+    [[nodiscard]] std::uint32_t probes_of(std::uint32_t i, const Candidate& pair) const;
+    /// Returns the chance that a pair was found by no ray.
+    [[nodiscard]] double missed_chance(std::uint32_t i, const Candidate& pair, double exchange,
+                                       double share) const;
+    void estimate(std::uint32_t i, const Candidate& pair, std::vector<PairExchange>& pairs);
+    void estimate_by_lines(std::uint32_t i, const Candidate& pair, double free,
+                           std::vector<PairExchange>& pairs);
+    void add(std::uint32_t i, const Candidate& candidate, double free, double share,
+             double deviation, std::vector<PairExchange>& pairs);
+    [[nodiscard]] std::uint64_t seed_of(std::uint32_t i, std::uint32_t j, std::uint64_t use) const {
+        return hash_words({options_.seed, i, j, use});
+    }
+    [[nodiscard]] double tolerance(std::uint32_t i, std::uint32_t j, double exchange) const {
+        const double smaller = std::min(faces_[i].area, faces_[j].area);
+        return smaller * options_.tolerance(i, j, exchange / smaller);
+    }
+
+    const Mesh& mesh_;
+    const WideBvh& tree_;
+    const ExchangeOptions& options_;
+    std::span<const FacePlane> faces_;
+    std::span<const std::vector<std::uint32_t>> seen_;
+    PairRays rays_, probes_;
+    std::vector<bool> is_seen_; ///< by patch, of the row
+    std::vector<Candidate> candidates_, unseen_;
+    struct Small {
+        std::size_t place; ///< in the row's pairs
+        Candidate pair;
+        double free;
+    };
+    std::vector<Small> small_;
+    std::vector<float> missed_;
+    std::vector<std::uint32_t> near_;
+    std::vector<Polygon> between_;
+    ExchangeWork work_;
+};
+
+std::uint32_t RowPairs::probes_of(std::uint32_t i, const Candidate& pair) const {
+    const double wanted = pair.rough / (2 * tolerance(i, pair.to, 0));
+    return std::clamp(static_cast<std::uint32_t>(std::min(wanted, 1e3)), min_probes, max_probes);
+}
+
+double RowPairs::missed_chance(std::uint32_t i, const Candidate& pair, double exchange,
+                               double share) const {
+    const double hits = options_.rays * exchange * (1 / faces_[i].area + 1 / faces_[pair.to].area);
+    return std::exp(-hits) * std::pow(1 - std::min(share, 1.0), double(probes_of(i, pair)));
+}
+
+/// Lists those of higher index that were seen from either side, and others that face the patch and
+/// are large enough to count.
+void RowPairs::look_for(std::uint32_t i) {
+    candidates_.clear();
+    unseen_.clear();
+    for (const std::uint32_t j : seen_[i])
+        is_seen_[j] = true;
+    const FacePlane& face = faces_[i];
+    for (std::uint32_t j = i + 1; j < faces_.size(); ++j) {
+        const bool seen = is_seen_[j];
+        const double rough = rough_exchange(face, faces_[j]);
+        if (!seen && !(rough > smallest_searched * tolerance(i, j, 0)))
+            continue;
+        const Facing facing = hemilux::facing(face, faces_[j], plane_rounding);
+        if (facing != Facing::never)
+            (seen ? candidates_ : unseen_).push_back({j, facing, rough});
+    }
+    for (const std::uint32_t j : seen_[i])
+        is_seen_[j] = false;
+}
+
+/// Adds those of the unseen that a few rays see after all.
+void RowPairs::probe(std::uint32_t i) {
+    constexpr std::size_t at_a_time = 4096;
+    for (std::size_t begin = 0; begin < unseen_.size(); begin += at_a_time) {
+        const std::size_t end = std::min(begin + at_a_time, unseen_.size());
+        for (std::size_t k = begin; k < end; ++k) {
+            const std::uint32_t j = unseen_[k].to;
+            probes_.add(faces_[i], mesh_.patches()[i].facet, faces_[j], mesh_.patches()[j].facet,
+                        probes_of(i, unseen_[k]), seed_of(i, j, 1));
+        }
+        work_.rays += probes_.size();
+        probes_.trace([&](std::size_t pair, const PairRays::Share& share) {
+            if (share.arrived > 0)
+                candidates_.push_back(unseen_[begin + pair]);
+        });
+    }
+    std::ranges::sort(candidates_, {}, &Candidate::to);
+}
+
+void RowPairs::find(std::uint32_t i, std::vector<PairExchange>& pairs, std::vector<float>& missed) {
+    look_for(i);
+    probe(i);
+    small_.clear();
+    missed_.clear();
+    for (const Candidate& pair : candidates_)
+        estimate(i, pair, pairs);
+    work_.rays += rays_.size();
+    rays_.trace([&](std::size_t k, const PairRays::Share& share) {
+        const Small& small = small_[k];
+        PairExchange& pair = pairs[small.place];
+        const double seen = share.all > 0 ? share.seen / share.all : 0;
+        // So many rays of equal weight have the same variance. The prior is half a ray on either
+        // side.
+        const double n = share.squares > 0 ? share.all * share.all / share.squares : 0;
+        const double p = (n * seen + .5) / (n + 1);
+        // Divided by the chance that it was found, the sum over all pairs like it is right on
+        // average.
+        const double chance = 1 - missed_chance(i, small.pair, small.free * p, p);
+        pair.exchange = small.free * (share.arrived > 0 ? seen : p) / chance;
+        pair.deviation = static_cast<float>(small.free * std::sqrt(p * (1 - p) / (n + 1)) / chance);
+    });
+    work_.ray_pairs += small_.size();
+    missed.assign(missed_.begin(), missed_.end());
+}
+
+/// Adds a pair that was not estimated by rays alone.
+void RowPairs::add(std::uint32_t i, const Candidate& candidate, double free, double share,
+                   double deviation, std::vector<PairExchange>& pairs) {
+    const double exchange = free * share;
+    const double chance = missed_chance(i, candidate, exchange, share);
+    pairs.push_back({candidate.to, static_cast<float>(deviation), exchange});
+    missed_.push_back(static_cast<float>(exchange * chance / std::max(1 - chance, .1)));
+}
+
+void RowPairs::estimate(std::uint32_t i, const Candidate& candidate,
+                        std::vector<PairExchange>& pairs) {
+    const std::uint32_t j = candidate.to;
+    const FacePlane &a = faces_[i], &b = faces_[j];
+    const double free = free_exchange(a, b, candidate.facing, FreeAccuracy::rough, plane_rounding);
+    if (!(free > 0))
+        return;
+    const double allowed = tolerance(i, j, free);
+    const double rays = std::pow(free / (2 * allowed), 1.6);
+    if (rays <= max_pair_rays) {
+        const auto count = std::max(static_cast<std::uint32_t>(std::ceil(rays)), min_pair_rays);
+        rays_.add(a, mesh_.patches()[i].facet, b, mesh_.patches()[j].facet, count,
+                  seed_of(i, j, 2));
+        small_.push_back({pairs.size(), candidate, free});
+        pairs.push_back({j, 0, 0});
+        missed_.push_back(0);
+        return;
+    }
+    ConvexPart of_a = part_of(a.shape), of_b = part_of(b.shape);
+    if (candidate.facing == Facing::partly) {
+        of_a = in_front(of_a, b.plane, plane_rounding);
+        of_b = in_front(of_b, a.plane, plane_rounding);
+        if (of_a.empty() || of_b.empty())
+            return;
+    }
+    const double exact = free_exchange(a, b, candidate.facing, FreeAccuracy::exact, plane_rounding);
+    const PairHull hull(of_a, a.plane, of_b, b.plane, plane_rounding);
+    near_.clear();
+    between_.clear();
+    tree_.facets_within(hull.sides(), near_);
+    for (const std::uint32_t facet : near_) {
+        if (facet == mesh_.patches()[i].facet || facet == mesh_.patches()[j].facet)
+            continue;
+        const Polygon shape = mesh_.shape_of(facet);
+        if (hull.holds_some_of(shape))
+            between_.push_back(shape);
+    }
+    if (between_.empty()) {
+        ++work_.exact_pairs;
+        add(i, candidate, exact, 1, 0, pairs);
+        return;
+    }
+    estimate_by_lines(i, candidate, exact, pairs);
+}
+
+void RowPairs::estimate_by_lines(std::uint32_t i, const Candidate& candidate, double free,
+                                 std::vector<PairExchange>& pairs) {
+    const std::uint32_t j = candidate.to;
+    LineSamples lines(faces_[i], faces_[j], between_);
+    ++work_.line_pairs;
+    std::uint64_t use = 3;
+    const auto sample = [&](unsigned cells, LinesAlong along) {
+        const SeenShare seen = lines.estimate(cells, along, seed_of(i, j, use++));
+        work_.lines += seen.lines;
+        return seen;
+    };
+    SeenShare seen = sample(first_cells, LinesAlong::first_edge);
+    const SeenShare other = sample(first_cells, LinesAlong::second_edge);
+    const bool by_first = seen.variance <= other.variance;
+    if (!by_first)
+        seen = other;
+    for (unsigned cells = first_cells;;) {
+        const double deviation = free * std::sqrt(seen.variance);
+        const double wanted = tolerance(i, j, free * seen.share);
+        if (cells == max_cells || deviation <= wanted) {
+            if (seen.share > 0)
+                add(i, candidate, free, seen.share, deviation, pairs);
+            work_.clear_pairs += seen.clear_lines == seen.lines;
+            return;
+        }
+        // The error falls about as the square of the cells.
+        const double next = std::min(cells * std::sqrt(deviation / wanted), double(max_cells));
+        cells = std::clamp(static_cast<unsigned>(std::ceil(next)), cells + 1, max_cells);
+        seen = sample(cells, by_first ? LinesAlong::first_edge : LinesAlong::second_edge);
+    }
+}
+
+/// Sums what was missed by row. A bound of it: what no ray of so many found is below three of them
+/// in 95 % of all cases.
+void find_unlisted(ExchangeList& list, const std::vector<std::vector<float>>& missed,
+                   std::uint32_t rays) {
+    list.unlisted.assign(list.area.size(), 0);
+    for (std::size_t i = 0; i < missed.size(); ++i)
+        for (std::size_t k = 0; k < missed[i].size(); ++k) {
+            const std::uint32_t j = list.pairs[i][k].to;
+            list.unlisted[i] += double(missed[i][k]) / list.area[i];
+            list.unlisted[j] += double(missed[i][k]) / list.area[j];
+        }
+    for (const double expected : list.unlisted)
+        list.unlisted_bound.push_back(2 * expected + 3.0 / rays);
+}
+
+/// Makes lists of what each patch saw lists of those of higher index that it saw or was seen by.
+void keep_higher(std::vector<std::vector<std::uint32_t>>& seen) {
+    std::vector<std::vector<std::uint32_t>> higher(seen.size());
+    for (std::uint32_t i = 0; i < seen.size(); ++i) {
+        for (const std::uint32_t j : seen[i])
+            higher[std::min(i, j)].push_back(std::max(i, j));
+        seen[i] = {};
+    }
+    for (std::vector<std::uint32_t>& row : higher) {
+        std::ranges::sort(row);
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+    }
+    seen = std::move(higher);
+}
+
+} // namespace
+
+FactorTolerance relative_above(double error, double least) {
+    return [error, least](std::uint32_t, std::uint32_t, double factor) {
+        return error * std::max(factor, least);
+    };
+}
+
+FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const ExchangeOptions& options,
+                            const Workers& workers, Monitor& monitor) {
+    const std::size_t patches = mesh.patches().size();
+    FoundExchange found;
+    ExchangeList& list = found.list;
+    std::vector<FacePlane> faces;
+    faces.reserve(patches);
+    for (const Patch& patch : mesh.patches()) {
+        faces.push_back(face_plane(patch.shape));
+        list.area.push_back(patch.area);
+    }
+    list.open.resize(patches);
+    list.pairs.resize(patches);
+    std::vector<std::vector<std::uint32_t>> seen(patches);
+    workers.for_chunks_with(
+        patches, 16, [&] { return RowRays(mesh, tree, options.seed, options.up); },
+        [&](RowRays& rays, std::size_t begin, std::size_t end) {
+            RowView view;
+            for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
+                rays.trace(static_cast<std::uint32_t>(i), options.rays, view);
+                seen[i].assign(view.seen.begin(), view.seen.end());
+                list.open[i] = view.open;
+            }
+            monitor.rays += (end - begin) * options.rays;
+        });
+    keep_higher(seen);
+    std::vector<std::vector<float>> missed(patches);
+    std::mutex mutex;
+    workers.for_chunks_with(
+        patches, 4, [&] { return RowPairs(mesh, tree, options, faces, seen); },
+        [&](RowPairs& row, std::size_t begin, std::size_t end) {
+            const ExchangeWork before = row.work();
+            for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
+                row.find(static_cast<std::uint32_t>(i), list.pairs[i], missed[i]);
+                list.pairs[i].shrink_to_fit();
+            }
+            const ExchangeWork& now = row.work();
+            monitor.rays += now.rays - before.rays;
+            const std::lock_guard lock(mutex);
+            found.work.rays += now.rays - before.rays;
+            found.work.lines += now.lines - before.lines;
+            found.work.exact_pairs += now.exact_pairs - before.exact_pairs;
+            found.work.line_pairs += now.line_pairs - before.line_pairs;
+            found.work.ray_pairs += now.ray_pairs - before.ray_pairs;
+            found.work.clear_pairs += now.clear_pairs - before.clear_pairs;
+        });
+    found.work.rays += patches * options.rays;
+    find_unlisted(list, missed, options.rays);
+    return found;
+}
+
+} // namespace hemilux

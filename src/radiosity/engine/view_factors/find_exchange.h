@@ -1,0 +1,60 @@
+#pragma once
+// Finds the factors of all pairs of patches that see each other, each with its error.
+//
+// 1. Rays of each patch find who sees whom, and how much of the view is sky and ground. Rays
+//    between pairs that face each other look for what these missed.
+// 2. A factor far below what counts is the free one times the share of a few rays that arrive.
+// 3. For every other pair the tree is asked for facets in the hull of the two. Where there are
+// none,
+//    the free factor (free_exchange.h) is exact. Else it is multiplied by the seen share of the
+//    kernel, by lines between which these facets cast shadows (line_samples.h), as many as the
+//    error asks for.
+
+#include "bvh/wide/wide_bvh.h"
+#include "parallel/workers.h"
+#include "radiosity/engine/view_factors/exchange_list.h"
+
+#include <cstdint>
+#include <functional>
+
+namespace hemilux {
+
+class Mesh;
+struct Monitor;
+
+/// This says which standard error a factor may have. `larger` is the larger of the two factors of a
+/// pair [-], `smaller_index` and `larger_index` are its patches.
+using FactorTolerance =
+    std::function<double(std::uint32_t smaller_index, std::uint32_t larger_index, double larger)>;
+
+/// Asks for a relative error `error` of factors above `least`, and the same in absolute figures of
+/// those below.
+[[nodiscard]] FactorTolerance relative_above(double error, double least);
+
+struct ExchangeOptions {
+    std::uint32_t rays = 1024; ///< from each patch; a power of two, 256 at least
+    FactorTolerance tolerance = relative_above(.01, 1e-3);
+    std::uint64_t seed = 1;
+    int up = 2; ///< axis that points to the sky
+};
+
+/// The work that it took.
+struct ExchangeWork {
+    std::uint64_t rays = 0, lines = 0;
+    std::uint64_t exact_pairs = 0, line_pairs = 0, ray_pairs = 0;
+    /// Pairs of which neither a certificate nor a line says that something hides a part.
+    std::uint64_t clear_pairs = 0;
+};
+
+struct FoundExchange {
+    ExchangeList list;
+    ExchangeWork work;
+};
+
+/// The result is void if the monitor was interrupted. It has the same bytes for any number of
+/// threads. The tree must be that of the mesh.
+[[nodiscard]] FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree,
+                                          const ExchangeOptions& options, const Workers& workers,
+                                          Monitor& monitor);
+
+} // namespace hemilux

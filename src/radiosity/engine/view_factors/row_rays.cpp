@@ -1,0 +1,91 @@
+#include "radiosity/engine/view_factors/row_rays.h"
+
+#include "radiosity/engine/sampling/sobol.h"
+#include "radiosity/paper/rays/patch_start.h"
+#include "radiosity/paper/rays/shot.h"
+#include "radiosity/paper/solving/solver.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace hemilux {
+
+void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
+    const auto start = PatchStart::in_any_axes(mesh_, patch);
+    const std::uint32_t of_batch = rays / batches;
+    std::array<std::array<double, batches>, opens> counts{};
+    view.seen.clear();
+    for (std::uint32_t batch = 0; batch < batches; ++batch) {
+        SobolBlocks<4> points(hash_words({seed_, patch, batch}));
+        rays_.clear();
+        for (std::uint32_t k = 0; k < of_batch; ++k) {
+            const std::array<double, 4> u = points.at(k);
+            rays_.push_back(start.ray({u[2], u[3]}, cosine_direction({u[0], u[1]})));
+        }
+        receivers_.clear();
+        find_receivers(rays_, mesh_, tracer_, receivers_);
+        for (std::size_t k = 0; k < receivers_.size(); ++k) {
+            const auto count = [&](Open open) { ++counts[static_cast<std::size_t>(open)][batch]; };
+            if (receivers_[k] == escaped)
+                count(rays_[k].direction[up_] > 0 ? Open::sky : Open::ground);
+            else if (receivers_[k] == absorbed)
+                count(Open::back);
+            else if (receivers_[k] != patch)
+                view.seen.push_back(receivers_[k]);
+        }
+    }
+    std::ranges::sort(view.seen);
+    view.seen.erase(std::unique(view.seen.begin(), view.seen.end()), view.seen.end());
+    for (std::size_t open = 0; open < opens; ++open) {
+        double sum = 0, squares = 0;
+        for (const double count : counts[open])
+            sum += count;
+        for (const double count : counts[open])
+            squares += (count - sum / batches) * (count - sum / batches);
+        // The variance of Student's distribution with so many degrees of freedom.
+        constexpr double freedom = batches - 1, spread = freedom / (freedom - 2);
+        const double variance = spread * squares / (batches * freedom * of_batch * of_batch);
+        const double share = sum / rays;
+        // Where all batches agree, half a ray may be elsewhere.
+        const double least = share > 0 ? .5 / rays : 0;
+        view.open[open] = {share, std::max(std::sqrt(variance), least)};
+    }
+}
+
+OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, double error, std::uint64_t seed,
+                          int up, const Workers& workers, Monitor& monitor) {
+    constexpr std::uint32_t first_rays = 1024, most_rays = 1 << 18;
+    constexpr double least_share = .01;
+    const std::size_t patches = mesh.patches().size();
+    const auto excess = [&](const OpenShare& share) {
+        return share.standard_error / (error * std::max(share.factor, least_share));
+    };
+    OpenViews views;
+    views.open.resize(patches);
+    std::atomic<std::uint64_t> traced{0};
+    workers.for_chunks_with(
+        patches, 16, [&] { return RowRays(mesh, tracer, seed, up); },
+        [&](RowRays& row, std::size_t begin, std::size_t end) {
+            RowView view;
+            for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
+                for (std::uint32_t rays = first_rays;;) {
+                    row.trace(static_cast<std::uint32_t>(i), rays, view);
+                    traced += rays;
+                    const double too_large = std::max(excess(view.open[0]), excess(view.open[1]));
+                    if (too_large <= 1 || rays == most_rays)
+                        break;
+                    // The error falls about as the power -0.6 of the rays.
+                    const double wanted = rays * std::pow(too_large, 1 / .6);
+                    while (rays < wanted && rays < most_rays)
+                        rays *= 2;
+                }
+                views.open[i] = view.open;
+            }
+        });
+    views.rays = traced;
+    monitor.rays += views.rays;
+    return views;
+}
+
+} // namespace hemilux

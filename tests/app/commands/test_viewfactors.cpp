@@ -1,0 +1,223 @@
+// What `hemilux viewfactors` writes and says.
+#include "app/check_fails.h"
+#include "support/catch.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <sstream>
+#include <vector>
+
+using Catch::Contains;
+using test::Workplace;
+
+namespace {
+
+/// Rows of a table, by field.
+std::vector<std::vector<std::string>> rows_of(const std::string& table) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(table);
+    for (std::string line; std::getline(lines, line);) {
+        std::vector<std::string>& row = rows.emplace_back();
+        std::istringstream fields(line + ",");
+        for (std::string field; std::getline(fields, field, ',');)
+            row.push_back(field);
+    }
+    return rows;
+}
+
+/// F by i and j of a table i,j,F,standard_error.
+std::map<std::array<int, 2>, double> factors_of(const std::string& table) {
+    const auto rows = rows_of(table);
+    CHECK(rows.front() == std::vector<std::string>{"i", "j", "F", "standard_error"});
+    std::map<std::array<int, 2>, double> factors;
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+        CHECK(std::stod(rows[k][3]) >= 0);
+        factors[{std::stoi(rows[k][0]), std::stoi(rows[k][1])}] = std::stod(rows[k][2]);
+    }
+    return factors;
+}
+
+double sum_of_row(const std::map<std::array<int, 2>, double>& factors, int row) {
+    double sum = 0;
+    for (const auto& [pair, factor] : factors)
+        if (pair[0] == row)
+            sum += factor;
+    return sum;
+}
+
+/// An open box of the unit cube without its lid, whose floor is an L and a square: two faces, the
+/// first concave.
+constexpr const char* open_box = R"(
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v .5 1 0
+v .5 .5 0
+v 1 .5 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+g floor
+f 1 2 7 6 5 4
+f 6 7 3 5
+g walls
+f 1 8 9 2
+f 2 9 10 7
+f 7 10 3
+f 3 10 11 5
+f 5 11 4
+f 4 11 8 1
+)";
+
+} // namespace
+
+TEST_CASE("viewfactors of a closed room are exact") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome = place.hemilux("viewfactors room.obj -o f.csv --legend s.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out.empty());
+    for (const char* text : {"24 surfaces of 24 patches", "240 pairs exact, 0 by lines, 0 by rays",
+                             "standard errors: factors of at least 0.001: 0 % rms",
+                             "reciprocity: ", "wrote f.csv", "wrote s.csv"})
+        CHECK_THAT(outcome.err, Contains(text));
+    const auto factors = factors_of(place.read("f.csv"));
+    for (int row = 0; row < 24; ++row)
+        CHECK(sum_of_row(factors, row) == Approx(1).margin(1e-12));
+    CHECK(rows_of(place.read("s.csv")).size() == 25);
+}
+
+TEST_CASE("viewfactors rows are faces of the file, concave ones too, or groups") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    REQUIRE(place.hemilux("viewfactors box.obj -q --sky -o f.csv --legend s.csv").code == 0);
+    const auto legend = rows_of(place.read("s.csv"));
+    REQUIRE(legend.size() == 1 + 8 + 1); // eight faces and the sky
+    CHECK(legend[1][1] == "0");
+    CHECK(std::stod(legend[1][6]) == Approx(.75)); // area of the L
+    CHECK(legend[9][0] == "8");
+    CHECK(legend[9][1] == "sky");
+    CHECK(legend[9].size() == legend[0].size());
+    const auto factors = factors_of(place.read("f.csv"));
+    for (int row = 0; row < 8; ++row)
+        CHECK(sum_of_row(factors, row) == Approx(1).margin(1e-12));
+
+    REQUIRE(place.hemilux("viewfactors box.obj -q --by group --sky -o g.csv").code == 0);
+    const auto groups = factors_of(place.read("g.csv"));
+    // The whole floor sees the open lid by .19982490 (opposed squares) and walls by the rest.
+    CHECK(groups.at({0, 2}) == Approx(.19982490).margin(1e-8));
+    CHECK(groups.at({0, 1}) == Approx(1 - .19982490).margin(1e-8));
+    CHECK(groups.at({1, 0}) == Approx(.25 * (1 - .19982490)).margin(1e-8));
+}
+
+TEST_CASE("viewfactors between two named surfaces") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    const auto outcome =
+        place.hemilux("viewfactors box.obj --by group --of pair:floor,walls --error .5% -o g.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("F from 'floor' to 'walls' 0.800175"));
+    for (const char* of : {"rows", "largest", "above:1%"})
+        CHECK(place.hemilux("viewfactors box.obj -q --of " + std::string(of) + " -o h.csv").code ==
+              0);
+}
+
+TEST_CASE("viewfactors writes sparse and dense arrays, cells and uDALES' files") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    const auto outcome = place.hemilux("viewfactors box.obj -o f.npz -o f.npy -o f.vtu "
+                                       "-o vfsparse.inp.001 -o svf.inp.001 -o f.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK(place.read("f.npy").size() == 128 + 8 * 8 * 8);
+    const std::string npz = place.read("f.npz");
+    for (const char* name : {"indices.npy", "indptr.npy", "format.npy", "shape.npy", "data.npy",
+                             "standard_error.npy", "area.npy", "name.npy"})
+        CHECK_THAT(npz, Contains(name));
+    CHECK_THAT(npz, Contains("{'descr': '|S3', 'fortran_order': False, 'shape': (), }"));
+    for (const char* name : {"\"sky\"", "\"row_sum\"", "\"unlisted_bound\"", "\"surface\""})
+        CHECK_THAT(place.read("f.vtu"), Contains(name));
+    const auto factors = factors_of(place.read("f.csv"));
+    std::istringstream udales(place.read("vfsparse.inp.001"));
+    int i = 0, j = 0;
+    double factor = 0;
+    std::size_t count = 0;
+    for (; udales >> i >> j >> factor; ++count)
+        CHECK(factor == Approx(factors.at({i - 1, j - 1})).margin(6e-9));
+    CHECK(count == factors.size());
+    std::istringstream sky(place.read("svf.inp.001"));
+    std::string line;
+    std::getline(sky, line);
+    CHECK(line == "# sky view factors");
+    for (int row = 0; row < 8; ++row) {
+        REQUIRE(sky >> factor);
+        CHECK(factor == Approx(1 - sum_of_row(factors, row)).margin(1e-7));
+    }
+}
+
+TEST_CASE("viewfactors gives the same bytes whatever the threads") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    for (const char* threads : {"1", "3"})
+        CHECK(place
+                  .hemilux("viewfactors box.obj -q -t " + std::string(threads) + " -o " + threads +
+                           ".npz")
+                  .code == 0);
+    CHECK(place.read("1.npz") == place.read("3.npz"));
+}
+
+TEST_CASE("viewfactors names surfaces that see nothing but backs") {
+    const Workplace place;
+    place.write("turned.obj",
+                "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -9 -9 .1\nv 9 -9 .1\nv 9 9 .1\n"
+                "v -9 9 .1\nf 1 2 3 4\nf 5 6 7 8\n");
+    const auto outcome = place.hemilux("viewfactors turned.obj -o a.csv");
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("1 surface sees nothing but backs of faces ('0')"));
+}
+
+TEST_CASE("viewfactors of the sky alone computes no other factors") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    const auto outcome = place.hemilux("viewfactors box.obj --by group --of sky --error .5% -o "
+                                       "svf.inp.001 -o s.vtu --legend s.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("2 surfaces of ") && Contains("sky and ground: 0."));
+    const auto legend = rows_of(place.read("s.csv"));
+    CHECK(legend[1][1] == "floor");
+    CHECK(std::stod(legend[1][13]) == Approx(.19982490).epsilon(.015));
+    CHECK(std::stod(legend[1][14]) < .005 * .2);
+    CHECK(legend[1][19].empty()); // the sum of the row is not known
+    test::check_fails(place, 1, "viewfactors box.obj --of sky -o a.csv", "svf.inp... or .vtu");
+}
+
+TEST_CASE("viewfactors says what is wrong with what it is asked") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    const auto fails = [&](int code, const std::string& arguments, const std::string& message) {
+        test::check_fails(place, code, "viewfactors " + arguments, message);
+    };
+    fails(1, "box.obj", "--output");
+    fails(1, "box.obj -o a.png", ".csv, .npz, .npy or .vtu");
+    fails(1, "box.obj -o a.csv --rays 1000", "a power of two from 256");
+    fails(1, "box.obj -o a.csv --error 2", "2%");
+    fails(1, "box.obj -o a.csv --by wall", "--by");
+    for (const char* of : {"above:2", "above:", "pair:a", "pair:,b", "sum"})
+        fails(1, "box.obj -o a.csv --of " + std::string(of), "above:F with F from 1e-6 to 1");
+    fails(1, "box.obj -o a.csv --of pair:floor,wall --by group", "no surface is called 'wall'");
+    fails(1, "box.obj -o a.csv --legend ./a.csv", "named twice");
+    fails(2, "none.obj -o a.csv", "none.obj");
+    fails(3, "box.obj -o nowhere/a.csv", "nowhere");
+    CHECK_FALSE(place.has("a.csv"));
+}
+
+TEST_CASE("viewfactors refuses a dense matrix above a gigabyte before it computes one") {
+    const Workplace place;
+    std::string many = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int k = 0; k < 11200; ++k)
+        many += "f 1 2 3\n";
+    place.write("many.obj", many);
+    test::check_fails(place, 1, "viewfactors many.obj -o a.npy", "write .npz instead");
+}
