@@ -116,8 +116,9 @@ FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
     const std::string& path = settings.scene.path;
     const int size = settings.lightmap.value_or(FileBakeSettings::default_size);
     FileLightmap found;
-    found.source = std::make_unique<gltf::LitSource>(
-        path, memory_guard(path, settings.scene.memory), std::move(origins));
+    found.source =
+        std::make_unique<gltf::LitSource>(path, memory_guard(path, settings.scene.memory),
+                                          settings.scene.outside, std::move(origins));
     const std::vector<ChartSide> sides = fronts_of_file(mesh, found.source->origins());
     const std::size_t sets = found.source->texcoord_sets(), asked = bake.set.value_or(1);
     std::string fault;

@@ -68,11 +68,12 @@ void add_once(std::vector<std::uint32_t>& groups, std::uint32_t group) {
 
 } // namespace
 
-LitSource::LitSource(const std::string& path, const ReadGuard& guard,
+LitSource::LitSource(const std::string& path, const ReadGuard& guard, Outside outside,
                      std::vector<PrimitiveOrigin> origins)
     : path_(path), guard_(guard), container_(read_container(path_, guard_)),
-      document_(document_of(container_, path_)), buffers_(document_, container_, path_, guard_),
-      triangles_(buffers_), origins_(std::move(origins)) {
+      document_(document_of(container_, path_)), outside_(path_, outside, reported_),
+      buffers_(document_, container_, path_, guard_, outside_), triangles_(buffers_),
+      origins_(std::move(origins)) {
     for (const PrimitiveOrigin& origin : origins_) {
         const bool is_there = origin.mesh < document_.meshes.size() &&
                               origin.primitive < document_.meshes[origin.mesh].primitives.size() &&

@@ -2,6 +2,7 @@
 // A glTF file that is read once more, to be written again with a lightmap: its texture coordinates,
 // and the numbers of its vertices.
 
+#include "io/files/outside_files.h"
 #include "io/gltf/elements.h"
 #include "io/gltf/primitives.h"
 #include "io/lightmaps/chart_regions.h"
@@ -25,8 +26,9 @@ namespace gltf {
 class LitSource {
   public:
     /// Reads the file. `origins` say what was read from it before. Throws InputError, also where
-    /// the file has changed since.
-    LitSource(const std::string& path, const ReadGuard& guard,
+    /// the file has changed since. Files outside of its folder were reported when it was read
+    /// first.
+    LitSource(const std::string& path, const ReadGuard& guard, Outside outside,
               std::vector<PrimitiveOrigin> origins);
 
     [[nodiscard]] const std::string& path() const { return path_; }
@@ -47,6 +49,8 @@ class LitSource {
     const ReadGuard guard_;
     Container container_;
     Document document_;
+    std::vector<std::string> reported_;
+    OutsideFiles outside_;
     Buffers buffers_;
     TriangleReader triangles_;
     std::vector<PrimitiveOrigin> origins_;
