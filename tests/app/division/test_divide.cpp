@@ -240,7 +240,7 @@ TEST_CASE("Ctrl-C while patches are divided leaves the light by which they were 
     CHECK(place.has("a.csv"));
 }
 
-TEST_CASE("the steps log of a divided run has a row for each step on its last patches") {
+TEST_CASE("the steps log of a divided run has a row for each step on its last patches", "[slow]") {
     const Workplace place;
     place.write_room();
     for (const std::string error : {".1", ".3"}) { // some patches are divided, none

@@ -123,8 +123,9 @@ TEST_CASE("the error of gathered light is found as exactly as it is asked for") 
     const Workplace place;
     place.write_room();
     const auto relative_uncertainty = [&](const std::string& options) {
-        place.hemilux("solve room.obj -q -o p.png --size 96x72 --error 5% --stats s.json" +
-                      options);
+        const auto outcome = place.hemilux(
+            "solve room.obj -q -o p.png --size 96x72 --error 5% --stats s.json" + options);
+        CHECK(outcome.code == 0);
         const std::string json = place.read("s.json");
         const double error = test::statistic(json, "estimated_error");
         CHECK(error > 0);

@@ -27,7 +27,7 @@ TEST_CASE("Ctrl-C ends the count of densities for pictures and pages") {
                    Contains("patch") && !Contains(std::string("\0density", 8)));
 }
 
-TEST_CASE("a picture with layers has the light of the .hdr picture and its provenance") {
+TEST_CASE("a picture with layers has the light of the .hdr picture and its provenance", "[slow]") {
     const Workplace place;
     place.write_room();
     const std::string arguments =

@@ -46,7 +46,7 @@ TEST_CASE("a picture far too large is not read to its end") {
     const Workplace place;
     write_textured(place);
     write_sparse(place, "big.png", "", terabyte);
-    check_ends(place, "info room.obj", 0, "neither PNG nor JPEG");
+    check_ends(place, "info room.obj", 0, "neither PNG, JPEG nor TGA");
     write_sparse(place, "big.png", signature, terabyte);
     check_ends(place, "info room.obj", 2, "big.png: expected a picture in a file of at most 1 GiB");
     write_sparse(place, "big.png", signature, 300 * megabyte);

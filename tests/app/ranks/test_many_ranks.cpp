@@ -63,7 +63,7 @@ TEST_CASE("mpirun starts ranks that write the bytes of one process", "[slow]") {
     }
 }
 
-TEST_CASE("compare on ranks writes the bytes of one process, but for times") {
+TEST_CASE("compare on ranks writes the bytes of one process, but for times", "[slow]") {
     if (!can_start_ranks())
         return;
     const Workplace place;
@@ -79,7 +79,7 @@ TEST_CASE("compare on ranks writes the bytes of one process, but for times") {
     CHECK(!place.read("one/error.csv").empty());
 }
 
-TEST_CASE("A checkpoint of three ranks goes on at two, and at one alone") {
+TEST_CASE("A checkpoint of three ranks goes on at two, and at one alone", "[slow]") {
     if (!can_start_ranks())
         return;
     const Workplace place;

@@ -32,7 +32,7 @@ void check(const Workplace& place, const std::string& limit, const std::string& 
 
 } // namespace
 
-TEST_CASE("on a small stack every command works") {
+TEST_CASE("on a small stack every command works", "[slow]") {
     const Workplace place;
     place.write_room();
     for (const std::string& command : commands())
@@ -46,7 +46,7 @@ TEST_CASE("on a small stack every command works") {
         }
 }
 
-TEST_CASE("few files, short files and little memory end with a message or not at all") {
+TEST_CASE("few files, short files and little memory end with a message or not at all", "[slow]") {
     const Workplace place;
     place.write_room();
     for (const std::string& command : commands()) {

@@ -63,7 +63,7 @@ TEST_CASE("an error of 1 asks whether 1 % was meant") {
     CHECK(place.read("a.csv") == place.read("b.csv"));
 }
 
-TEST_CASE("tones and stops change pictures alone where light is bright") {
+TEST_CASE("tones and stops change pictures alone where light is bright", "[slow]") {
     const Workplace place;
     place.write_room();
     const std::string with = run + "-q --exposure ";
@@ -117,7 +117,8 @@ TEST_CASE("the axis that is upwards is chosen, or reported where it is guessed")
     test::check_fails(place, 1, run + "--up x -o a.png", "--up: expected y or z, not 'x'");
 }
 
-TEST_CASE("--lightmap writes a picture beside the .glb file, the same for any number of threads") {
+TEST_CASE("--lightmap writes a picture beside the .glb file, the same for any number of threads",
+          "[slow]") {
     const Workplace place;
     place.write_room();
     const std::string with = run + "-q --lightmap 64 ";

@@ -70,7 +70,7 @@ void write_inputs(const Workplace& place) {
 
 } // namespace
 
-TEST_CASE("a signal ends every stage of every command with what there is, and says so") {
+TEST_CASE("a signal ends every stage of every command with what there is, and says so", "[slow]") {
     const Workplace place;
     write_inputs(place);
     const Stage& stage = GENERATE(from_range(stages()));

@@ -108,8 +108,7 @@ TEST_CASE("what gathers read becomes right where patches are coarse", "[slow]") 
     const Solution accurate =
         test::solve(fine, transport(), {}, {.steps = {}, .seconds = {}, .error = .002});
     const std::vector<TargetPart> parts = parts_over(coarse.mesh, 200, 7);
-    const std::vector<Vec3> truth =
-        gathered(fine, SurfaceLight(fine.mesh, accurate), parts, 8192);
+    const std::vector<Vec3> truth = gathered(fine, SurfaceLight(fine.mesh, accurate), parts, 8192);
     const double before =
         difference(gathered(coarse, SurfaceLight(coarse.mesh, solution), parts, 4096), truth);
     const StopFlag never;
