@@ -121,7 +121,7 @@ TEST_CASE("no run takes more memory than the least --memory that lets it begin",
         "solve room.obj --rays 4 -o a.glb", "solve room.obj --rays 4 -o a.vtu",
         "solve room.obj --rays 4 --report r.html", "solve room.obj --rays 4 --checkpoint saved",
         "solve room.obj --rays 4 -o a.glb --bake indirect --gather 1");
-    const std::string size = GENERATE("--max-edge .05", "--max-edge .02", "--max-edge .008");
+    const std::string size = GENERATE("--max-edge .1", "--max-edge .05", "--max-edge .025");
     const std::string arguments = run + " --steps 1 -q -o a.json " + size;
     CAPTURE(arguments);
     const std::string message = place.hemilux(arguments + " --memory 12.5M").err;
@@ -140,9 +140,9 @@ TEST_CASE("no picture takes more memory than the least --memory that lets it beg
     const Workplace place;
     place.write_room();
     const std::string output = GENERATE("-o a.png", "-o a.hdr", "-o a.exr", "-o a.exr -o a.png",
-                                        "--error-map a.png -o a.csv", "--lightmap 512 -o a.glb");
+                                        "--error-map a.png -o a.csv", "--lightmap 256 -o a.glb");
     const std::string gather = GENERATE("--no-gather", "--gather 1");
-    const int side = GENERATE(256, 512, 1024);
+    const int side = GENERATE(64, 128, 256);
     const std::string arguments = "solve room.obj --error 5% --max-rays 100000 -q " + output + " " +
                                   gather + " " + test::camera_in_room + "--size " +
                                   std::to_string(side) + "x" + std::to_string(side);

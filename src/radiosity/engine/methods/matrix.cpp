@@ -20,6 +20,7 @@
 #include "radiosity/engine/form_factors/sampled_form_factors.h"
 #include "radiosity/engine/linear/batch_solutions.h"
 #include "radiosity/engine/linear/emitter_losses.h"
+#include "radiosity/engine/linear/gmres.h"
 #include "radiosity/engine/linear/hemicube_matrix.h"
 #include "radiosity/engine/linear/surfaces.h"
 #include "radiosity/engine/solving/method.h"
@@ -239,12 +240,22 @@ std::unique_ptr<Solver> make_matrix(const SolverInput& input) {
 
 std::vector<MethodOption> options() { return {exact_option(), factors_option(true)}; }
 
+/// Returns the bytes of the vectors that solvers keep (gmres.h), of all channels of the batches
+/// that are solved at once.
+double bytes_of_solvers(const SolveOptions& options, double patches) {
+    constexpr double channels = 3;
+    const double at_once = std::min<double>(Workers(options.threads).threads(), batches);
+    return channels * at_once * sizeof(double) * patches *
+           std::min(double(GmresOptions{}.max_restart), patches);
+}
+
 double bytes(const SolveOptions& options, double patches) {
     const auto& factors = options.own.of<FactorOptions>();
     if (factors.kind == FactorKind::hemicube)
         return bytes_per_factor * patches *
                std::min(patches, 3.0 * std::pow(factors.hemicube_edge, 2));
-    return double(batches) * bytes_per_factor * patches * std::min(patches, options.rays);
+    return double(batches) * bytes_per_factor * patches * std::min(patches, options.rays) +
+           bytes_of_solvers(options, patches);
 }
 
 } // namespace

@@ -38,7 +38,7 @@ void sum_pairs(const ExchangeList& list, std::span<const std::uint32_t> row_of,
     });
     factors.row_begin.assign(1, 0);
     for (std::size_t row = 0; row < rows; ++row) {
-        const std::span<Term> of_row(&terms[begin[row]], begin[row + 1] - begin[row]);
+        const auto of_row = std::span(terms).subspan(begin[row], begin[row + 1] - begin[row]);
         std::ranges::stable_sort(of_row, {}, &Term::column);
         for (std::size_t k = 0; k < of_row.size();) {
             const std::uint32_t column = of_row[k].column;
