@@ -22,6 +22,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -79,7 +80,7 @@ void measure(const std::string& path, double max_edge, double rays) {
     const double each = rays / (2 * batches);
     RayPlan plan(mesh, needs, each, small_emitters(mesh).empty() ? 0 : each, RayGoal{true, 0});
     plan.begin();
-    plan.grow({}, 1, Workers(0));
+    plan.grow({}, 1, std::numeric_limits<double>::infinity(), Workers(0));
     std::vector<RayCounts> counts;
     for (std::uint64_t s = 0; s < batches; ++s)
         counts.emplace_back(mesh, *made.tracer, hash_words({1, s}));
