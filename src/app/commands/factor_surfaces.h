@@ -5,7 +5,6 @@
 #include "io/results/view_factor_files.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +14,8 @@ struct FactorSurfaces {
     std::vector<std::uint32_t> row_of; ///< by patch
     std::vector<FactorSurface> rows;
 
-    /// Returns the row of this name; empty where there is none.
-    [[nodiscard]] std::optional<std::uint32_t> named(const std::string& name) const;
+    /// Returns the row of this name, which --of pair has. Throws UsageError where there is none.
+    [[nodiscard]] std::uint32_t row_named(const std::string& name) const;
 };
 
 /// Makes a row for each side of a face that has patches, in the order of the file, front first, or

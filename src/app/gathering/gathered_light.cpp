@@ -1,6 +1,7 @@
 #include "app/gathering/gathered_light.h"
 
 #include "app/division/whole_error.h"
+#include "app/gathering/learn_options.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace hemilux {
@@ -50,10 +52,6 @@ struct Errors {
     double noise = 0;             ///< of their own, relative [-]
     double noise_uncertainty = 0; ///< one sigma
 
-    void set_noise(const PictureError& own) {
-        noise = own.error;
-        noise_uncertainty = own.uncertainty;
-    }
     [[nodiscard]] double whole() const { return std::hypot(read.error, noise); }
     [[nodiscard]] double bound() const { return std::hypot(read.bound, noise + noise_uncertainty); }
     [[nodiscard]] double uncertainty() const {
@@ -81,8 +79,9 @@ class Gathering {
 
   private:
     [[nodiscard]] ReadError learn(std::span<const TargetPart> target, std::uint64_t seed);
-    [[nodiscard]] PictureError judge(const Image& picture, const CameraRays& rays,
-                                     std::uint64_t more);
+    template <class Gather, class Judge>
+    void gather_until_right(const std::string& what, const ReadError& read, const Gather& gather,
+                            const Judge& judge, std::uint64_t seed);
     void add(const Errors& errors) {
         if (!errors_ || errors.bound() > errors_->bound())
             errors_ = errors;
@@ -104,14 +103,8 @@ class Gathering {
 };
 
 ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t seed) {
-    LearnOptions options{
-        .seed = seed, .error = share_of_read * error_, .accuracy = settings_.error_accuracy};
-    if (settings_.stop.rays) {
-        const std::uint64_t spent = solution_.rays_energy + solution_.rays_density +
-                                    statistics_.rays_divide + statistics_.rays_division_error +
-                                    statistics_.rays_learn + statistics_.rays_gather;
-        options.max_rays = *settings_.stop.rays - std::min(spent, *settings_.stop.rays);
-    }
+    const LearnOptions options =
+        learn_options(settings_, share_of_read * error_, seed, solution_, statistics_);
     const Stopwatch watch;
     const ReadError found = light_.cache->learn(target, options, workers_, monitor_.interrupted);
     statistics_.rays_learn += found.rays;
@@ -119,16 +112,49 @@ ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t see
     return found;
 }
 
-/// `more` times as many pixels are judged as usual.
-PictureError Gathering::judge(const Image& picture, const CameraRays& rays, std::uint64_t more) {
-    constexpr std::size_t usual_pixels = 512;
-    const Stopwatch watch;
-    const PictureError found =
-        picture_error(scene_.mesh, scene_.tracer, light_.cache->light(), rays, picture,
-                      usual_pixels * more, hash_words({seed_of(7), more - 1}), workers_);
-    statistics_.rays_learn += found.rays;
-    statistics_.seconds_learn += watch.seconds();
-    return found;
+/// Gathers by so many rays at a point, and judges what was given out: judge(pixels, seed) does so
+/// by about so many pixels. Where the error is too large, it is gathered again with four times as
+/// many rays, as long as that helps: in small pictures most of it lies between the points of the
+/// grid. Where the error itself is asked for, more pixels are judged.
+template <class Gather, class Judge>
+void Gathering::gather_until_right(const std::string& what, const ReadError& read,
+                                   const Gather& gather, const Judge& judge, std::uint64_t seed) {
+    constexpr unsigned max_rays = 256;
+    constexpr std::uint64_t usual_pixels = 512, max_more = 64;
+    constexpr double helps = .75;
+    Errors errors{read};
+    const auto judge_by = [&](std::uint64_t more) {
+        const Stopwatch watch;
+        const PictureError own = judge(usual_pixels * more, hash_words({seed, more - 1}));
+        statistics_.rays_learn += own.rays;
+        statistics_.seconds_learn += watch.seconds();
+        errors.noise = own.error;
+        errors.noise_uncertainty = own.uncertainty;
+    };
+    double before = std::numeric_limits<double>::infinity();
+    for (unsigned rays = settings_.gather.value_or(rays_for(error_));; rays *= 4) {
+        const Stopwatch watch;
+        gather(rays);
+        statistics_.seconds_gather += watch.seconds();
+        judge_by(1);
+        if (errors.whole() <= error_ && errors.bound() > error_)
+            judge_by(4);
+        log_line(settings_.verbosity, Verbosity::verbose,
+                 what + " by " + counted(rays, "ray", "rays") + " a point: its own error is " +
+                     percent(errors.noise) + ", that of the light which it reads " +
+                     percent(errors.read.error));
+        if (settings_.gather || errors.bound() <= error_ || 4 * rays > max_rays ||
+            errors.noise > helps * before || errors.read.bound > error_ || monitor_.interrupted)
+            break;
+        before = errors.noise;
+    }
+    const double accuracy = settings_.error_accuracy;
+    for (std::uint64_t more = 4;
+         accuracy > 0 && more <= max_more && !monitor_.interrupted &&
+         errors.noise * errors.noise_uncertainty > accuracy * errors.whole() * errors.whole();
+         more *= 4)
+        judge_by(more);
+    add(errors);
 }
 
 void Gathering::find_points(std::span<const NamedPoint> points) {
@@ -156,85 +182,57 @@ void Gathering::find_points(std::span<const NamedPoint> points) {
     add(errors);
 }
 
-/// Where the picture's own error is too large, it is rendered again with four times as many rays,
-/// as long as that helps: in small pictures most of it lies between the points of the grid.
 void Gathering::find_picture(const Camera& camera) {
-    constexpr unsigned max_gather = 256;
-    constexpr std::uint64_t max_more = 64;
-    constexpr double helps = .75;
+    const Mesh& mesh = scene_.mesh;
     const auto [width, height] = settings_.view.size;
-    const CameraRays rays(camera, scene_.mesh, double(width) / height);
-    Errors errors{
-        learn(picture_parts(scene_.mesh, scene_.tracer, rays, width, height, seed_of(6), workers_),
-              seed_of(5))};
+    const CameraRays rays(camera, mesh, double(width) / height);
+    const ReadError read = learn(
+        picture_parts(mesh, scene_.tracer, rays, width, height, seed_of(6), workers_), seed_of(5));
     RenderOptions options = picture_options(settings_.view.size, settings_.options.threads, time_);
     options.slope = solution_.slope;
     options.cells = &light_.cache->cells();
-    options.gather = settings_.gather.value_or(rays_for(error_));
-    for (double before = std::numeric_limits<double>::infinity();; options.gather *= 4) {
-        const Stopwatch watch;
-        light_.picture = render_view(scene_, camera, options);
-        statistics_.seconds_gather += watch.seconds();
-        errors.set_noise(judge(*light_.picture, rays, 1));
-        if (errors.whole() <= error_ && errors.bound() > error_)
-            errors.set_noise(judge(*light_.picture, rays, 4));
-        if (settings_.gather || errors.bound() <= error_ || 4 * options.gather > max_gather ||
-            errors.noise > helps * before || errors.read.bound > error_ || monitor_.interrupted)
-            break;
-        before = errors.noise;
-    }
-    const double accuracy = settings_.error_accuracy;
-    for (std::uint64_t more = 4;
-         accuracy > 0 && more <= max_more && !monitor_.interrupted &&
-         errors.noise * errors.noise_uncertainty > accuracy * errors.whole() * errors.whole();
-         more *= 4)
-        errors.set_noise(judge(*light_.picture, rays, more));
-    add(errors);
+    gather_until_right(
+        "picture", read,
+        [&](unsigned of_point) {
+            options.gather = of_point;
+            light_.picture = render_view(scene_, camera, options);
+        },
+        [&](std::size_t pixels, std::uint64_t seed) {
+            return picture_error(mesh, scene_.tracer, light_.cache->light(), rays, *light_.picture,
+                                 pixels, seed, workers_);
+        },
+        seed_of(7));
 }
 
-/// Where its own error is too large, it is gathered again with four times as many rays, as pictures
-/// are. A signal leaves the light of patches in it.
+/// A signal leaves the light of patches in it.
 void Gathering::find_lightmap(const LightmapLayout& layout) {
-    constexpr unsigned max_gather = 256;
-    constexpr double helps = .75;
     const Mesh& mesh = scene_.mesh;
     const SurfaceLight& light = light_.cache->light();
     std::vector<PlacedTriangle> triangles = layout.triangles;
     show_brighter_sides(mesh, solution_, triangles);
     const TexelMap texels(mesh, std::move(triangles), layout.size);
-    LightmapOptions options{
-        .bake = settings_.bake, .rays = settings_.rays_of_gather(), .check = [this] {
-            if (time_.is_over())
-                throw Interrupted();
-        }};
+    LightmapOptions options{.bake = settings_.bake, .check = [this] {
+                                if (time_.is_over())
+                                    throw Interrupted();
+                            }};
     GatheredLightmap found;
     try {
         const std::vector<bool> covered =
             find_covered(mesh, scene_.tracer, texels, options.check, workers_);
-        Errors errors{
-            learn(lightmap_parts(mesh, texels, covered, settings_.bake, seed_of(10)), seed_of(11))};
-        for (std::uint64_t attempt = 0;; ++attempt, options.rays *= 4) {
-            const Stopwatch watch;
-            found = gather_lightmap(mesh, scene_.tracer, light, texels, covered, options, workers_);
-            statistics_.seconds_gather += watch.seconds();
-            const Stopwatch judging;
-            const PictureError own =
-                lightmap_error(mesh, scene_.tracer, light, texels, found, settings_.bake,
-                               hash_words({seed_of(12), attempt}), workers_);
-            statistics_.rays_learn += own.rays;
-            statistics_.seconds_learn += judging.seconds();
-            const double before = attempt == 0 ? own.error / helps : errors.noise;
-            errors.noise = own.error;
-            errors.noise_uncertainty = own.uncertainty;
-            log_line(settings_.verbosity, Verbosity::verbose,
-                     "lightmap by " + counted(options.rays, "ray", "rays") +
-                         " a texel: its own error is " + percent(own.error) +
-                         ", that of the light which it reads " + percent(errors.read.error));
-            if (settings_.gather || errors.whole() <= error_ || 4 * options.rays > max_gather ||
-                own.error > helps * before || errors.read.bound > error_ || monitor_.interrupted)
-                break;
-        }
-        add(errors);
+        const ReadError read =
+            learn(lightmap_parts(mesh, texels, covered, settings_.bake, seed_of(10)), seed_of(11));
+        gather_until_right(
+            "lightmap", read,
+            [&](unsigned of_point) {
+                options.rays = of_point;
+                found =
+                    gather_lightmap(mesh, scene_.tracer, light, texels, covered, options, workers_);
+            },
+            [&](std::size_t pixels, std::uint64_t seed) {
+                return lightmap_error(mesh, scene_.tracer, light, texels, found, settings_.bake,
+                                      pixels, seed, workers_);
+            },
+            seed_of(12));
     } catch (const Interrupted&) {
         log_line(settings_.verbosity, Verbosity::quiet,
                  "interrupted; the lightmap shows the light of the patches");

@@ -1,5 +1,6 @@
 #include "app/gathering/target_light.h"
 
+#include "app/gathering/learn_options.h"
 #include "app/terminal/stopwatch.h"
 #include "geometry/polygon_sampler.h"
 #include "parallel/workers.h"
@@ -83,11 +84,9 @@ void gather_target(const SolveSettings& settings, const LitScene& scene, Solutio
             sensors.push_back({point, i});
     }
     LightCache cache(mesh, scene.tracer, solution);
-    LearnOptions options{.seed = hash_words({settings.options.seed, 8}),
-                         .error = share_of_learned * error,
-                         .accuracy = settings.error_accuracy};
-    if (settings.stop.rays)
-        options.max_rays = *settings.stop.rays;
+    const LearnOptions options =
+        learn_options(settings, share_of_learned * error, hash_words({settings.options.seed, 8}),
+                      solution, statistics);
     const ReadError read = cache.learn(parts, options, workers, monitor.interrupted);
     if (monitor.interrupted)
         return;

@@ -47,8 +47,7 @@ std::vector<std::string> RunNotes::texts(double error, bool interrupted) const {
     if (!interrupted && stop_.error && !(error <= *stop_.error)) {
         std::string text = "the run ended before the error of " + percent(*stop_.error) +
                            " was reached, after " + short_counted(rays_, "ray", "rays");
-        constexpr double least_step = 1.5; // a smaller one may not be begun
-        if (stop_.rays && least_step * double(rays_) >= double(*stop_.rays))
+        if (stop_.rays && (1 + least_growth) * double(rays_) >= double(*stop_.rays))
             text += "; --max-rays lets it go on";
         notes.push_back(text);
     }

@@ -1,19 +1,19 @@
 #include "io/gltf/lit_file.h"
 
-#include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/files/little_endian.h"
 #include "io/gltf/document/uri.h"
 #include "io/gltf/instances.h"
 #include "io/gltf/scene_meshes.h"
+#include "io/meshes/glb_container.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -67,6 +67,7 @@ class Writer {
     void give_own_mesh(const PrimitiveOrigin& origin);
     void forget_instancing();
     std::size_t longer_copy(std::size_t accessor, const std::vector<std::uint32_t>& further);
+    std::size_t add_accessor(std::string_view bytes, int target, const Json& elements);
     std::size_t add_places(const std::vector<glm::vec2>& places);
     std::size_t add_indices(const AtlasCoordinates& coordinates);
     void pad() { binary_.resize((binary_.size() + 3) / 4 * 4, '\0'); }
@@ -350,20 +351,26 @@ std::size_t Writer::longer_copy(std::size_t accessor, const std::vector<std::uin
     return root_["accessors"].size() - 1;
 }
 
+/// Adds an accessor of all these bytes, for a target of OpenGL's.
+std::size_t Writer::add_accessor(std::string_view bytes, int target, const Json& elements) {
+    const std::size_t view = add_view(bytes);
+    root_["bufferViews"][view]["target"] = target;
+    Json accessor{{"bufferView", view}};
+    accessor.update(elements);
+    Json& accessors = array_of("accessors");
+    accessors.push_back(std::move(accessor));
+    return accessors.size() - 1;
+}
+
 std::size_t Writer::add_places(const std::vector<glm::vec2>& places) {
     std::string bytes;
     for (const glm::vec2& place : places) {
         append_number(bytes, place.x);
         append_number(bytes, place.y);
     }
-    const std::size_t view = add_view(bytes);
-    root_["bufferViews"][view]["target"] = vertex_target;
-    Json& accessors = array_of("accessors");
-    accessors.push_back({{"bufferView", view},
-                         {"componentType", float_component},
-                         {"count", places.size()},
-                         {"type", "VEC2"}});
-    return accessors.size() - 1;
+    return add_accessor(
+        bytes, vertex_target,
+        {{"componentType", float_component}, {"count", places.size()}, {"type", "VEC2"}});
 }
 
 std::size_t Writer::add_indices(const AtlasCoordinates& coordinates) {
@@ -371,35 +378,16 @@ std::size_t Writer::add_indices(const AtlasCoordinates& coordinates) {
     for (const auto& corners : coordinates.corners)
         for (const std::uint32_t vertex : corners)
             append_number(bytes, vertex);
-    const std::size_t view = add_view(bytes);
-    root_["bufferViews"][view]["target"] = index_target;
-    Json& accessors = array_of("accessors");
-    accessors.push_back({{"bufferView", view},
-                         {"componentType", uint_component},
+    return add_accessor(bytes, index_target,
+                        {{"componentType", uint_component},
                          {"count", 3 * coordinates.corners.size()},
                          {"type", "SCALAR"}});
-    return accessors.size() - 1;
 }
 
 void Writer::write(const std::string& path) const {
     // A name that is not UTF-8 must not cost the user the file.
-    std::string json = root_.dump(-1, ' ', false, Json::error_handler_t::replace);
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8;
-    const std::size_t length = header_bytes + 2 * chunk_header_bytes + json.size() + binary_.size();
-    if (length > std::numeric_limits<std::uint32_t>::max())
-        throw OutputError(path, "would be longer than the 4 GiB of a .glb file");
-    const auto word = [](std::size_t value) {
-        std::string bytes;
-        append_number(bytes, static_cast<std::uint32_t>(value));
-        return bytes;
-    };
-    AtomicFile file(path);
-    file.write("glTF" + word(2) + word(length) + word(json.size()) + "JSON");
-    file.write(json);
-    file.write(word(binary_.size()) + std::string("BIN\0", 4));
-    file.write(binary_);
-    file.commit();
+    write_glb_container(path, root_.dump(-1, ' ', false, Json::error_handler_t::replace),
+                        std::array<std::string_view, 1>{binary_});
 }
 
 } // namespace

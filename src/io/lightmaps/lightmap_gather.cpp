@@ -232,15 +232,14 @@ std::vector<TargetPart> lightmap_parts(const Mesh& mesh, const TexelMap& texels,
 
 PictureError lightmap_error(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
                             const TexelMap& texels, const GatheredLightmap& lightmap, Bake bake,
-                            std::uint64_t seed, const Workers& workers) {
-    constexpr double texels_to_judge = 512;
+                            std::size_t count, std::uint64_t seed, const Workers& workers) {
     std::vector<std::size_t> shown;
     for (std::size_t k = 0; k < texels.count(); ++k)
         if (lightmap.known[k] && texels.is_inside(k))
             shown.push_back(k);
     Rng rng(seed);
     std::vector<JudgedPixel> judged;
-    const double each = std::max(1.0, double(shown.size()) / texels_to_judge);
+    const double each = std::max(1.0, double(shown.size()) / double(count));
     for (double next = 0; next < double(shown.size()); next += each) {
         const std::size_t texel = shown[std::min(
             static_cast<std::size_t>(next + rng.uniform() * each), shown.size() - 1)];

@@ -54,10 +54,11 @@ void fill_texels(GatheredLightmap& lightmap, const TexelMap& texels, int margin)
                                                      std::uint64_t seed);
 
 /// Returns how far the lightmap is from the light that its rays read, judged as that of pictures
-/// (picture_error.h).
+/// (picture_error.h), by about `count` texels.
 [[nodiscard]] PictureError lightmap_error(const Mesh& mesh, const Tracer& tracer,
                                           const SurfaceLight& light, const TexelMap& texels,
                                           const GatheredLightmap& lightmap, Bake bake,
-                                          std::uint64_t seed, const Workers& workers);
+                                          std::size_t count, std::uint64_t seed,
+                                          const Workers& workers);
 
 } // namespace hemilux

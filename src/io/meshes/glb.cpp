@@ -1,15 +1,14 @@
 #include "io/meshes/glb.h"
 
-#include "io/files/atomic_file.h"
-#include "io/files/error.h"
 #include "io/files/little_endian.h"
+#include "io/meshes/glb_container.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <limits>
 #include <numbers>
 
 namespace hemilux {
@@ -182,13 +181,6 @@ class Document {
     Json accessors_ = Json::array(), nodes_ = Json::array(), meshes_ = Json::array();
 };
 
-/// Returns a chunk of a binary file without its bytes.
-std::string chunk_header(std::size_t bytes, std::string_view type) {
-    std::string header;
-    append_number(header, static_cast<std::uint32_t>(bytes));
-    return header + std::string(type);
-}
-
 } // namespace
 
 void write_glb(const std::string& path, const Mesh& mesh, const CornerClasses& classes,
@@ -197,23 +189,8 @@ void write_glb(const std::string& path, const Mesh& mesh, const CornerClasses& c
     Document document(mesh, classes, light, up, texcoords);
     for (const Part& part : parts_of(mesh, classes))
         document.add(part);
-    std::string json = document.json(from);
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8;
-    const std::size_t buffer = document.vertices().size() + document.indices().size();
-    const std::size_t length = header_bytes + 2 * chunk_header_bytes + json.size() + buffer;
-    if (length > std::numeric_limits<std::uint32_t>::max())
-        throw OutputError(path, "would be longer than the 4 GiB of a .glb file");
-    std::string header("glTF");
-    append_number(header, std::uint32_t{2});
-    append_number(header, static_cast<std::uint32_t>(length));
-    AtomicFile file(path);
-    file.write(header + chunk_header(json.size(), "JSON"));
-    file.write(json);
-    file.write(chunk_header(buffer, std::string_view("BIN\0", 4)));
-    file.write(document.vertices());
-    file.write(document.indices());
-    file.commit();
+    write_glb_container(path, document.json(from),
+                        std::array<std::string_view, 2>{document.vertices(), document.indices()});
 }
 
 } // namespace hemilux

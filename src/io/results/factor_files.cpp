@@ -10,14 +10,10 @@
 #include <vector>
 
 namespace hemilux {
-namespace {
 
-/// Returns the magic, the version, the length of the text, and the text, padded so that the numbers
-/// begin at a multiple of 64 bytes.
-std::string npy_header(std::size_t rows) {
-    const std::string n = std::to_string(rows);
+std::string npy_header(const std::string& type, const std::string& shape) {
     std::string text =
-        "{'descr': '<f8', 'fortran_order': False, 'shape': (" + n + ", " + n + "), }";
+        "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + shape + "), }";
     constexpr std::size_t before = 10, multiple = 64;
     while ((before + text.size() + 1) % multiple != 0)
         text += ' ';
@@ -25,12 +21,9 @@ std::string npy_header(std::size_t rows) {
     std::string bytes = "\x93NUMPY";
     bytes += '\x01';
     bytes += '\0';
-    bytes += static_cast<char>(text.size() & 0xff);
-    bytes += static_cast<char>(text.size() >> 8);
+    append_number(bytes, static_cast<std::uint16_t>(text.size()));
     return bytes + text;
 }
-
-} // namespace
 
 void write_factor_table(const std::string& path, const SparseMatrix& matrix,
                         const std::atomic<bool>* interrupted) {
@@ -59,7 +52,8 @@ void write_factor_table(const std::string& path, const SparseMatrix& matrix,
 void write_npy(const std::string& path, const SparseMatrix& matrix,
                const std::atomic<bool>* interrupted) {
     AtomicFile file(path);
-    file.write(npy_header(matrix.rows()));
+    const std::string n = std::to_string(matrix.rows());
+    file.write(npy_header("<f8", n + ", " + n));
     std::vector<double> row(matrix.rows());
     std::string bytes;
     for (std::size_t i = 0; i < matrix.rows(); ++i) {

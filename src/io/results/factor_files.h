@@ -13,8 +13,13 @@ namespace hemilux {
 void write_factor_table(const std::string& path, const SparseMatrix& matrix,
                         const std::atomic<bool>* interrupted = nullptr);
 
-/// Writes a square matrix as a dense NumPy array: format version 1.0, float64, little endian, C
-/// order (NumPy Enhancement Proposal 1). Entries that are not stored are 0. Throws OutputError.
+/// Returns the header of an .npy file of format version 1.0 (NumPy Enhancement Proposal 1) for
+/// numbers of a type such as "<f8", in C order. It is padded so that they begin at a multiple of 64
+/// bytes.
+[[nodiscard]] std::string npy_header(const std::string& type, const std::string& shape);
+
+/// Writes a square matrix as a dense NumPy array: float64, little endian, C order. Entries that are
+/// not stored are 0. Throws OutputError.
 void write_npy(const std::string& path, const SparseMatrix& matrix,
                const std::atomic<bool>* interrupted = nullptr);
 

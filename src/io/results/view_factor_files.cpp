@@ -44,21 +44,6 @@ void add(std::string& line, const std::string& text) {
     csv::append_text(line, text);
 }
 
-/// The header of an .npy file of format version 1.0 (NumPy Enhancement Proposal 1).
-std::string npy_header(const std::string& type, const std::string& shape) {
-    std::string text =
-        "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + shape + "), }";
-    constexpr std::size_t before = 10, multiple = 64;
-    while ((before + text.size() + 1) % multiple != 0)
-        text += ' ';
-    text += '\n';
-    std::string bytes = "\x93NUMPY";
-    bytes += '\x01';
-    bytes += '\0';
-    append_number(bytes, static_cast<std::uint16_t>(text.size()));
-    return bytes + text;
-}
-
 template <class Values>
 void add_array(StoredZip& zip, const std::string& name, const std::string& type,
                const Values& values) {

@@ -107,6 +107,20 @@ TEST_CASE("a million points are read in a moment") {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/// Asks how much the run needs, and runs it with that.
+void check_peak(const Workplace& place, const std::string& arguments) {
+    const std::string message = place.hemilux(arguments + " --memory 12.5M").err;
+    double need = 0;
+    char unit = 0;
+    REQUIRE(std::sscanf(message.c_str(), "hemilux: room.obj: needs about %lf %cB", &need, &unit) ==
+            2);
+    need *= unit == 'G' ? 1.01e9 : 1.01e6; // as rounded
+    Running bounded(place, arguments + " --memory " + std::to_string(static_cast<long>(need)),
+                    place.path("stderr.txt").c_str());
+    CHECK(bounded.wait() == 0);
+    CHECK(bounded.peak_bytes() < need);
+}
+
 TEST_CASE("no run takes more memory than the least --memory that lets it begin", "[slow]") {
     const Workplace place;
     place.write_room();
@@ -124,16 +138,7 @@ TEST_CASE("no run takes more memory than the least --memory that lets it begin",
     const std::string size = GENERATE("--max-edge .1", "--max-edge .05", "--max-edge .025");
     const std::string arguments = run + " --steps 1 -q -o a.json " + size;
     CAPTURE(arguments);
-    const std::string message = place.hemilux(arguments + " --memory 12.5M").err;
-    double need = 0;
-    char unit = 0;
-    REQUIRE(std::sscanf(message.c_str(), "hemilux: room.obj: needs about %lf %cB", &need, &unit) ==
-            2);
-    need *= unit == 'G' ? 1.01e9 : 1.01e6; // as rounded
-    Running bounded(place, arguments + " --memory " + std::to_string(static_cast<long>(need)),
-                    place.path("stderr.txt").c_str());
-    CHECK(bounded.wait() == 0);
-    CHECK(bounded.peak_bytes() < need);
+    check_peak(place, arguments);
 }
 
 TEST_CASE("no picture takes more memory than the least --memory that lets it begin", "[slow]") {
@@ -147,15 +152,6 @@ TEST_CASE("no picture takes more memory than the least --memory that lets it beg
                                   gather + " " + test::camera_in_room + "--size " +
                                   std::to_string(side) + "x" + std::to_string(side);
     CAPTURE(arguments);
-    const std::string message = place.hemilux(arguments + " --memory 12.5M").err;
-    double need = 0;
-    char unit = 0;
-    REQUIRE(std::sscanf(message.c_str(), "hemilux: room.obj: needs about %lf %cB", &need, &unit) ==
-            2);
-    need *= unit == 'G' ? 1.01e9 : 1.01e6;
-    Running bounded(place, arguments + " --memory " + std::to_string(static_cast<long>(need)),
-                    place.path("stderr.txt").c_str());
-    CHECK(bounded.wait() == 0);
-    CHECK(bounded.peak_bytes() < need);
+    check_peak(place, arguments);
 }
 #endif

@@ -146,7 +146,7 @@ TEST_CASE("texels have the light of their points, also where a block stands on t
     }
     CHECK(std::sqrt(squares / all) < .03);
     const PictureError error = lightmap_error(mesh, floor.model.bvh, light, floor.texels, lightmap,
-                                              Bake::irradiance, 3, workers);
+                                              Bake::irradiance, 512, 3, workers);
     CHECK(error.error < .03);
 
     // Under the block there is the light that is beside it, and no darkness.

@@ -87,19 +87,10 @@ Outline outline_of(const Polygon& polygon) {
     return {polygon.corner.begin(), polygon.corner.begin() + polygon.size()};
 }
 
-// The clipping follows Sutherland and Hodgman 1974.
 Outline in_front(const Outline& outline, const Plane& plane, double rounding) {
     Outline part;
-    double highest = 0;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-        const Vec3 &a = outline[i], &b = outline[(i + 1) % outline.size()];
-        const double height_a = plane.height(a), height_b = plane.height(b);
-        highest = std::max(highest, height_a);
-        if (height_a >= 0)
-            part.push_back(a);
-        if ((height_a < 0 && height_b > 0) || (height_a > 0 && height_b < 0))
-            part.push_back(glm::mix(a, b, height_a / (height_a - height_b)));
-    }
+    const double highest =
+        clip_in_front(outline, plane, [&](const Vec3& corner) { part.push_back(corner); });
     return highest > rounding && part.size() >= 3 ? part : Outline{};
 }
 

@@ -11,6 +11,9 @@
 
 #include "geometry/polygon.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace hemilux {
@@ -23,6 +26,24 @@ struct Plane {
 /// The corners of a convex polygon.
 using Outline = std::vector<Vec3>;
 [[nodiscard]] Outline outline_of(const Polygon& polygon);
+/// Calls keep(corner) for the corners of the part of a polygon that is in front of a plane, in
+/// order (Sutherland and Hodgman 1974). Returns the height of the highest corner over it.
+template <class Keep>
+double clip_in_front(std::span<const Vec3> corners, const Plane& plane, const Keep& keep) {
+    double highest = 0;
+    double of_next = corners.empty() ? 0 : plane.height(corners[0]);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vec3 &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];
+        const double of_this = of_next;
+        of_next = plane.height(b);
+        highest = std::max(highest, of_this);
+        if (of_this >= 0)
+            keep(a);
+        if ((of_this < 0 && of_next > 0) || (of_this > 0 && of_next < 0))
+            keep(glm::mix(a, b, of_this / (of_this - of_next)));
+    }
+    return highest;
+}
 /// Returns the part in front of a plane; empty where nothing rises above it by more than `rounding`
 /// [length].
 [[nodiscard]] Outline in_front(const Outline& outline, const Plane& plane, double rounding);

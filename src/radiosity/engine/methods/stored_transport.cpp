@@ -24,6 +24,7 @@
 #include "radiosity/engine/saving/solution_state.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/run.h"
 #include "radiosity/engine/solving/transport_figures.h"
 #include "radiosity/engine/stored_transport/batch_light.h"
 #include "radiosity/engine/stored_transport/importance.h"
@@ -74,10 +75,8 @@ class StoredTransportSolver final : public Solver {
     }
 
     void aim_at(double error) override { plan_.aim_at(error); }
-    /// No step is begun that may add less than half as many rays as there are.
     [[nodiscard]] bool finished() const override {
-        constexpr double least_step = 1.5;
-        return plan_.at_most() || least_step * double(traced_) > max_rays() ||
+        return plan_.at_most() || (1 + least_growth) * double(traced_) > max_rays() ||
                (solution_.steps > 0 && traced_ == traced_before_);
     }
     [[nodiscard]] const Solution& solution() const override { return solution_; }

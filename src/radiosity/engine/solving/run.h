@@ -23,6 +23,10 @@ struct Before {
     double seconds = 0; ///< except those of Solution::seconds_density
 };
 
+/// A solver that bounds its rays (StopRule::rays) begins no step that may add less than this share
+/// of those before.
+inline constexpr double least_growth = .5;
+
 /// Takes steps until the rule or the monitor ends the run; then still those that are ready.
 /// `after_step` sees each new solution. Returns false when interrupted. At the end of
 /// `stop.seconds`, or of one second where that is later, a step is cut short. If it is the first

@@ -31,7 +31,7 @@ struct ConvexPart {
 [[nodiscard]] ConvexPart part_of(const Polygon& polygon);
 
 /// Returns the part in front of a plane; empty where nothing rises above it by more than `rounding`
-/// [length] (Sutherland and Hodgman 1974).
+/// [length].
 [[nodiscard]] ConvexPart in_front(const ConvexPart& part, const Plane& plane, double rounding);
 
 } // namespace hemilux

@@ -1,0 +1,22 @@
+#pragma once
+// What is said of view factors that were computed: their errors, how far rows were from closed, and
+// surfaces that are probably turned.
+
+#include "app/commands/factor_surfaces.h"
+#include "app/settings/view_factor_settings.h"
+#include "radiosity/engine/view_factors/view_factors.h"
+
+namespace hemilux {
+
+/// The largest factor of each row: the smallest of all, and the worst relative error.
+struct LargestFactors {
+    double smallest = 1, worst_error = 0;
+};
+
+[[nodiscard]] LargestFactors largest_factors(const ViewFactors& factors);
+
+/// Logs all of this, and warns where an error is larger than asked for.
+void log_audit(const ViewFactorSettings& settings, const FactorSurfaces& surfaces,
+               const ViewFactors& factors, double seconds);
+
+} // namespace hemilux
