@@ -14,11 +14,11 @@ namespace {
 
 /// The parts of the standard error that may be left where solving ends: for the batches, which say
 /// no more than that error, and for the whole.
-constexpr double left_of_batches = .1, left_of_all = 1e-3;
+constexpr double left_of_batches = .25, left_of_all = 1e-2;
 
 /// The limits of residuals, relative to the light: the first is the least. The second, times what a
 /// reflection takes away, is the largest for the batches.
-constexpr double min_residual = 1e-10, first_residual = 1e-3;
+constexpr double min_residual = 1e-10, first_residual = 3e-3;
 
 /// Returns the variance of a single one of the values.
 Vec3 sample_variance(std::span<const Vec3> values) {
