@@ -54,6 +54,10 @@ struct Errors {
 
     [[nodiscard]] double whole() const { return std::hypot(read.error, noise); }
     [[nodiscard]] double bound() const { return std::hypot(read.bound, noise + noise_uncertainty); }
+    /// Returns whether the error may be larger or smaller than this one.
+    [[nodiscard]] bool is_in_doubt(double limit) const {
+        return bound() > limit && whole() - 2 * uncertainty() <= limit;
+    }
     [[nodiscard]] double uncertainty() const {
         return whole() > 0
                    ? std::hypot(read.error * read.uncertainty, noise * noise_uncertainty) / whole()
@@ -137,8 +141,9 @@ void Gathering::gather_until_right(const std::string& what, const ReadError& rea
         gather(rays);
         statistics_.seconds_gather += watch.seconds();
         judge_by(1);
-        if (errors.whole() <= error_ && errors.bound() > error_)
-            judge_by(4);
+        // Few pixels may happen to hold much: more of them cost less than to gather again.
+        for (std::uint64_t more = 4; more <= 16 && errors.is_in_doubt(error_); more *= 4)
+            judge_by(more);
         log_line(settings_.verbosity, Verbosity::verbose,
                  what + " by " + counted(rays, "ray", "rays") + " a point: its own error is " +
                      percent(errors.noise) + ", that of the light which it reads " +
