@@ -49,6 +49,10 @@ constexpr double rays_at_error_of_one = 0.11, min_rays = 4, max_rays = 16;
 /// Patches that hold very little light are not measured. If it varied by as much as it is, all that
 /// they leave would be this share of what is allowed [-]. More saves points and risks that error.
 constexpr double negligible_share = 0.05;
+/// The small ones of more patches than this are tried by a sample before each is measured. Where
+/// they hardly vary they are not: what they leave is at most this share of what is allowed [-].
+constexpr std::size_t surely_measured = 16'384;
+constexpr double even_share = 0.1;
 /// A division is done when so many standard errors above what was measured are allowed [-]: few
 /// points may miss what few patches hold. More is surer and takes more patches.
 constexpr double sure_by = 0.5;
@@ -176,10 +180,21 @@ void Division::measure(const Solution& light, double goal) {
     });
     due.erase(due.begin(), first);
     std::erase_if(due, [&](std::uint32_t i) { return !(counts(i) > 0); });
+    fresh_ = fresh_squares_ = 0;
+    if (due.size() > tuned::surely_measured) {
+        const auto small = std::span(due).first(due.size() - tuned::surely_measured);
+        std::vector<double> held;
+        for (const std::uint32_t i : small)
+            held.push_back(most(i));
+        if (are_even(light, small, held, tuned::even_share * goal)) {
+            for (const std::uint32_t i : small)
+                is_due_[i] = 0;
+            due.erase(due.begin(), due.begin() + std::ssize(small));
+        }
+    }
     std::ranges::sort(due);
     const auto known = std::stable_partition(due.begin(), due.end(),
                                              [&](std::uint32_t i) { return times_[i] == 0; });
-    fresh_ = fresh_squares_ = 0;
     measure(light, {due.begin(), known}, 1, tuned::rows_at_first);
     measure(light, {known, due.end()}, 1, tuned::rows_again);
     // Patches that were chosen for what was measured there are not a fair sample of all; these are.
@@ -191,10 +206,50 @@ void Division::measure(const Solution& light, double goal) {
     measure(light, some, 1, tuned::rows_again, tuned::one_again_in);
 }
 
-/// Measures some patches, by new points each time.
-void Division::measure(const Solution& light, std::span<const std::uint32_t> some, unsigned rounds,
-                       unsigned max_rows, double stand_for) {
-    const LightWithinPatches found =
+/// Tries patches that hold so much light each by a random sample, and returns whether all together
+/// vary by less than is `allowed` if each has one light all over. The sample is drawn by what they
+/// hold, and is so large that what none of it shows is surely less (the rule of three).
+bool Division::are_even(const Solution& light, std::span<const std::uint32_t> patches,
+                        std::span<const double> held, double allowed) {
+    constexpr double rule_of_three = 3, min_gain = 4, sigmas = 2;
+    const double all = std::reduce(held.begin(), held.end()), size = rule_of_three * all / allowed;
+    if (!(min_gain * size < double(patches.size())))
+        return false;
+    const double step = all / std::ceil(size);
+    std::vector<std::uint32_t> some;
+    std::vector<double> stands_for;
+    double sum = 0, next = step * Rng(hash_words({options_.seed, 8, measured_})).uniform();
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+        sum += held[k];
+        double times = 0;
+        for (; next < sum; next += step)
+            ++times;
+        if (times > 0) {
+            some.push_back(patches[k]);
+            stands_for.push_back(times * step / held[k]);
+        }
+    }
+    const LightWithinPatches found = within(light, some, 1, tuned::rows_again);
+    double square = 0, squares = 0;
+    for (std::size_t k = 0; k < some.size(); ++k) {
+        const Patch& patch = mesh_.patches()[some[k]];
+        const Slope slope = agreed_slope(patch, found.slopes[k]).slope;
+        const double own = stands_for[k] * counts(some[k]) *
+                           (found.square[k] + patch.area * variance_of(patch, slope));
+        square += own;
+        squares += own * own;
+    }
+    if (!(square + sigmas * std::sqrt(squares) <= allowed) || monitor_.interrupted)
+        return false;
+    fresh_ += square;
+    fresh_squares_ += squares;
+    return true;
+}
+
+/// Gathers at new points each time.
+LightWithinPatches Division::within(const Solution& light, std::span<const std::uint32_t> some,
+                                    unsigned rounds, unsigned max_rows) {
+    LightWithinPatches found =
         light_within_patches({mesh_, tracer_, light}, some,
                              {.rounds = rounds,
                               .rays = rays_of_estimate(options_.error),
@@ -202,6 +257,13 @@ void Division::measure(const Solution& light, std::span<const std::uint32_t> som
                               .seed = hash_words({options_.seed, 2, measured_++})},
                              workers_, monitor_.interrupted);
     rays_ += found.rays;
+    return found;
+}
+
+/// Measures some patches. Each stands for so many in what was found of all.
+void Division::measure(const Solution& light, std::span<const std::uint32_t> some, unsigned rounds,
+                       unsigned max_rows, double stand_for) {
+    const LightWithinPatches found = within(light, some, rounds, max_rows);
     if (monitor_.interrupted)
         return;
     for (std::size_t k = 0; k < some.size(); ++k) {

@@ -22,6 +22,7 @@
 namespace hemilux {
 
 class Mesh;
+struct LightWithinPatches;
 
 struct AdaptiveDivision {
     /// The relative error of the light that the division alone may leave [-].
@@ -85,6 +86,11 @@ class Division {
     void measure(const Solution& light, double goal);
     void measure(const Solution& light, std::span<const std::uint32_t> some, unsigned rounds,
                  unsigned max_rows, double stand_for = 1);
+    [[nodiscard]] bool are_even(const Solution& light, std::span<const std::uint32_t> patches,
+                                std::span<const double> held, double allowed);
+    [[nodiscard]] LightWithinPatches within(const Solution& light,
+                                            std::span<const std::uint32_t> some, unsigned rounds,
+                                            unsigned max_rows);
     [[nodiscard]] bool is_done(double goal) const;
     [[nodiscard]] bool cut(Solution& light, double goal);
 

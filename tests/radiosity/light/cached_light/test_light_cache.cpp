@@ -102,11 +102,11 @@ TEST_CASE("right light is found to be right, without noise") {
 }
 
 TEST_CASE("what gathers read becomes right where patches are coarse", "[slow]") {
-    const Model coarse(test::room_with_block()), fine(test::room_with_block(), {.max_edge = .05});
+    const Model coarse(test::room_with_block()), fine(test::room_with_block(), {.max_edge = .1});
     const Solution solution =
         test::solve(coarse, transport(), {}, {.steps = {}, .seconds = {}, .error = .05});
     const Solution accurate =
-        test::solve(fine, transport(), {}, {.steps = {}, .seconds = {}, .error = .002});
+        test::solve(fine, transport(), {}, {.steps = {}, .seconds = {}, .error = .003});
     const std::vector<TargetPart> parts = parts_over(coarse.mesh, 200, 7);
     const std::vector<Vec3> truth = gathered(fine, SurfaceLight(fine.mesh, accurate), parts, 8192);
     const double before =

@@ -187,6 +187,34 @@ TEST_CASE("division goes where the light changes, and ends at the error asked fo
     CHECK(even.mesh.patches().size() == 24);
 }
 
+TEST_CASE("many small patches that hardly vary are tried by a sample, large ones divided",
+          "[slow]") {
+    // A fine floor in a coarse room, below a ceiling that emits.
+    Scene scene;
+    scene.materials = {{"grey", Vec3(.5), Vec3(0)}, {"lamp", Vec3(0), Vec3(1)}};
+    scene.groups = {"default"};
+    constexpr std::uint32_t n = 200, patches = n * n + 5;
+    test::add_quad(scene, {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, n, n, 0);
+    test::add_quad(scene, {0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}, 1, 1, 1);
+    test::add_quad(scene, {0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, 1, 1, 0);
+    test::add_quad(scene, {1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}, 1, 1, 0);
+    test::add_quad(scene, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 1, 1, 0);
+    test::add_quad(scene, {0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, 1, 1, 0);
+    Monitor monitor;
+    const AdaptiveDivision options{.error = .05};
+    Model model(scene);
+    Solution light = rough_solution(model.mesh, model.bvh, options, monitor);
+    std::vector<std::uint64_t> rays;
+    Division division(model.mesh, model.bvh, options, monitor);
+    CHECK(division.divide(light, .05,
+                          [&](const DivisionRound& round) { rays.push_back(round.rays); }));
+    CHECK(model.mesh.patches().size() > patches);
+    CHECK(model.mesh.patches().size() < patches + 1000);
+    // Nine points or more, two gathers of six rays or more.
+    const std::uint64_t rays_of_each = std::uint64_t{9} * 2 * 6 * patches;
+    CHECK(rays.at(0) < rays_of_each * 3 / 4);
+}
+
 TEST_CASE("what varies on a patch counts for a target as the patch lights it from near") {
     const Model model(test::cube_with_lit_floor(1, .5));
     const auto patches = model.mesh.patches();

@@ -117,7 +117,7 @@ TEST_CASE("the standard error of a point's light is how far runs scatter", "[slo
     for (const std::uint32_t i : {0u, 2u, 5u, 7u})
         sensors.push_back(sensor_at(model.mesh, model.bvh, model.mesh.patches()[i].centre,
                                     model.mesh.patches()[i].normal));
-    constexpr int runs = 24;
+    constexpr int runs = 16;
     for (const char* method : {"stored-transport", "hemisphere"}) {
         std::vector<Vec3> sum(sensors.size()), squares(sensors.size()), reported(sensors.size());
         for (unsigned run = 0; run < runs; ++run) {
