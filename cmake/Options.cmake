@@ -7,8 +7,9 @@ if(HEMILUX_FUZZ)
                               -fno-sanitize=nonnull-attribute)
 endif()
 
-# Contraction of a*b+c is off so that all compilers give the same bytes. g++ 12 finds fault with
-# std::string's own code (GCC bug 105651).
+# Contraction of a*b+c is off, and elementary functions are the project's own (geometry/elementary.h), so
+# that all compilers and machines give the same bytes. g++ 12 finds fault with std::string's own code (GCC
+# bug 105651).
 add_library(hemilux_options INTERFACE)
 target_compile_features(hemilux_options INTERFACE cxx_std_20)
 target_compile_options(hemilux_options INTERFACE

@@ -1,7 +1,5 @@
 // Compares the module of the lesson with the program: the radiosity and the standard errors of all methods on
-// three scenes. Methods that use no elementary function of the C library have the same bits. In the others the
-// libraries of emscripten and of this system round the last bit of sines, arcs and logarithms in different ways:
-// they differ by less than 1e-8 of the largest value, most by less than 1e-14.
+// three scenes have the same bits.
 //
 //   node lesson/tests/same_bits.js HEMILUX [SITE]     HEMILUX: the program; SITE: build/lesson/site
 "use strict";
@@ -25,10 +23,7 @@ const runs = [
   { method: "stored-transport", page: true },
   { method: "stored-transport", page: false },
 ];
-const steps = 2, rays = 16, tolerance = 1e-8;
-// Those that take arcs, or logarithms in closed form factors.
-const rounds = ({ method, page, literal }) => method === "hemisphere-1997" || literal ||
-  (!page && ["matrix", "progressive", "stored-transport"].includes(method));
+const steps = 2, rays = 16;
 
 const ofProgram = (scene, { method, page, literal, own }, folder) => {
   const table = path.join(folder, "table.csv");
@@ -68,13 +63,12 @@ const compare = (a, b) => {
       for (let step = 0; step < steps && !solver.finished; ++step) solver.step();
       const light = compare(solver.light, expected.light), errors = compare(solver.errors, expected.errors);
       solver.delete();
-      const allowed = rounds(run) ? tolerance : 0;
-      const holds = Math.max(light.largest, errors.largest) <= allowed && (allowed > 0 || light.different + errors.different === 0);
+      const holds = light.different + errors.different === 0;
       all = all && holds;
       const name = `${scene}: ${run.method}${run.page ? ", page" : ""}${run.literal ? ", as printed" : ""}${run.own ? " " + run.own : ""}`;
       const shares = `${(100 * light.different).toFixed(0)} % of the light by up to ${light.largest.toExponential(1)}, ` +
         `${(100 * errors.different).toFixed(0)} % of the errors by up to ${errors.largest.toExponential(1)}`;
-      console.log(light.different + errors.different === 0 ? `same bits  ${name}` : `${holds ? "rounding " : "DIFFERS  "}  ${name}: ${shares}`);
+      console.log(holds ? `same bits  ${name}` : `DIFFERS    ${name}: ${shares}`);
     }
     room.delete();
   }

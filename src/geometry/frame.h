@@ -1,6 +1,7 @@
 #pragma once
 // A right-handed orthonormal frame of a surface: z is its normal.
 
+#include "geometry/elementary.h"
 #include "geometry/vector.h"
 
 #include <cmath>
@@ -21,9 +22,7 @@ struct Frame {
                 n};
     }
     /// Returns this frame turned about its normal by an angle [rad].
-    [[nodiscard]] Frame turned(double angle) const {
-        return turned(Vec2(std::cos(angle), std::sin(angle)));
-    }
+    [[nodiscard]] Frame turned(double angle) const { return turned(elementary::on_circle(angle)); }
     /// Does the same by the angle's cosine and sine.
     [[nodiscard]] Frame turned(Vec2 to) const {
         return {to.x * x + to.y * y, to.x * y - to.y * x, z};

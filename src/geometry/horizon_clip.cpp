@@ -1,5 +1,7 @@
 #include "geometry/horizon_clip.h"
 
+#include "geometry/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -66,7 +68,7 @@ ClippedPolygon clip_to_horizon(const std::array<Vec3, 4>& corners) {
 double edge_term(const Vec3& a, const Vec3& b) {
     const Vec3 m = glm::cross(a, b - a); // a x b, accurate for short edges
     const double length = glm::length(m);
-    return length > 0 ? std::atan2(length, glm::dot(a, b)) * (m.z / length) : 0.0;
+    return length > 0 ? elementary::atan2(length, glm::dot(a, b)) * (m.z / length) : 0.0;
 }
 
 } // namespace hemilux

@@ -13,8 +13,8 @@
 namespace hemilux {
 
 /// Sorts the lower half of the numbers before the upper half, by their centres along the axis on
-/// which these extend most. Centres that are equal but for rounding are sorted by number. Returns
-/// how many numbers the lower half has.
+/// which these extend most. Centres that are equal but for rounding are sorted by number. Each
+/// half is left in the order of its numbers. Returns how many numbers the lower half has.
 template <class CentreOf>
 std::size_t halve_at_median(std::span<std::uint32_t> numbers, const CentreOf& centre_of) {
     Box centres;
@@ -32,8 +32,10 @@ std::size_t halve_at_median(std::span<std::uint32_t> numbers, const CentreOf& ce
     const auto precedes = [&](std::uint32_t a, std::uint32_t b) {
         return std::pair(place(a), a) < std::pair(place(b), b);
     };
-    std::nth_element(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(half),
-                     numbers.end(), precedes);
+    const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(half);
+    std::nth_element(numbers.begin(), middle, numbers.end(), precedes);
+    std::sort(numbers.begin(), middle); // libraries leave the halves in different orders
+    std::sort(middle, numbers.end());
     return half;
 }
 

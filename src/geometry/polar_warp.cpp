@@ -1,5 +1,6 @@
 #include "geometry/polar_warp.h"
 
+#include "geometry/elementary.h"
 #include "geometry/numeric.h"
 
 #include <algorithm>
@@ -14,8 +15,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// Returns the z of a x b, which is positive where the edge runs counter-clockwise about the pole.
 double turn(const Vec3& a, const Vec3& b) { return difference_of_products(a.x, b.y, a.y, b.x); }
 
-double angle_of(Vec2 azimuth) { return std::atan2(azimuth.y, azimuth.x); }
-Vec2 azimuth_from(double angle) { return {std::cos(angle), std::sin(angle)}; }
+double angle_of(Vec2 azimuth) { return elementary::atan2(azimuth.y, azimuth.x); }
 
 } // namespace
 
@@ -64,7 +64,7 @@ Vec3 PolarWarp::sample(Vec2 u) const {
 
 PolarWarp::Sector PolarWarp::sector(const Vec3& apex, double side) {
     Sector result;
-    result.rho = std::hypot(apex.x, apex.y);
+    result.rho = elementary::hypot(apex.x, apex.y);
     result.height = apex.z;
     if (result.rho > 0)
         result.axis = Vec2(apex.x, apex.y) / result.rho;
@@ -88,8 +88,8 @@ PolarWarp::Arc PolarWarp::arc(const Sector& s, const Vec3& apex, const Vec3& end
 /// Returns the length of the arc from the apex to a meridian. It is symmetric in the two ends:
 /// tan(Gamma) = m_z |m| sin / ((m_z^2 + h_0^2) cos + h_0 h_1 sin).
 double PolarWarp::Arc::gamma(Vec2 azimuth) const {
-    return std::atan2(m_z * length * azimuth.y,
-                      (m_z * m_z + h_0 * h_0) * azimuth.x + h_0 * h_1 * azimuth.y);
+    return elementary::atan2(m_z * length * azimuth.y,
+                             (m_z * m_z + h_0 * h_0) * azimuth.x + h_0 * h_1 * azimuth.y);
 }
 
 double PolarWarp::Arc::area(Vec2 azimuth) const {
@@ -143,7 +143,8 @@ Vec3 PolarWarp::sample_fan(double target, double radial) const {
     const Sector& s = sector_[i];
     const Arc& m = s.first;
     const double gamma = m.m_z > 0 ? 2.0 * target * m.length / m.m_z : 0.0;
-    const double c = std::cos(gamma), d = std::sin(gamma) / m.length;
+    const Vec2 turn = elementary::on_circle(gamma);
+    const double c = turn.x, d = turn.y / m.length;
     const Vec2 point(s.rho * c + m.h_1 * s.height * d, (m.m_z * s.rho - m.h_0 * s.height) * d);
     const double height = s.height * c - m.h_1 * s.rho * d;
     return s.direction(point, std::sqrt(radial),
@@ -161,7 +162,7 @@ PolarWarp::Sector PolarWarp::wedge(const Vec3& apex, const Vec3& middle, const V
     if (!(end.y > 4 * epsilon)) // the first edge lies on a meridian: the other wedge is all
         return result;
     result.range = angle_of(end);
-    result.area = result.area_before(azimuth_from(result.range));
+    result.area = result.area_before(elementary::on_circle(result.range));
     return result;
 }
 
@@ -176,7 +177,7 @@ double PolarWarp::Sector::azimuth_at(double target) const {
     double low = 0, high = range;
     double angle = std::min(range, range * std::sqrt(target / area));
     for (int i = 0; i < max_steps; ++i) {
-        const Vec2 azimuth = azimuth_from(angle);
+        const Vec2 azimuth = elementary::on_circle(angle);
         const double first_area = first.area(azimuth), second_area = second.area(azimuth);
         const double f = std::abs(first_area - second_area) - target;
         if (!(std::abs(f) > epsilon * (first_area + second_area)))
@@ -202,7 +203,7 @@ double PolarWarp::Sector::azimuth_at(double target) const {
 }
 
 Vec3 PolarWarp::sample_wedge(const Sector& wedge, double target, double radial) const {
-    const Vec2 azimuth = azimuth_from(target > 0 ? wedge.azimuth_at(target) : 0.0);
+    const Vec2 azimuth = elementary::on_circle(target > 0 ? wedge.azimuth_at(target) : 0.0);
     const Crossing at = wedge.crossing(azimuth);
     const double second = at.difference > 0 ? 1.0 - radial : radial; // its share
     return wedge.direction(azimuth, std::sqrt(glm::mix(at.r_squared.x, at.r_squared.y, second)),

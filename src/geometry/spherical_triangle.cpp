@@ -1,5 +1,6 @@
 #include "geometry/spherical_triangle.h"
 
+#include "geometry/elementary.h"
 #include "geometry/polar_warp.h"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ double SphericalTriangle::solid_angle() const {
     const auto& [a, b, c] = vertex_;
     const double triple = glm::dot(a, glm::cross(b - a, c - a));
     const double rest = 1.0 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a);
-    return 2.0 * std::atan2(triple, rest);
+    return 2.0 * elementary::atan2(triple, rest);
 }
 
 /// Returns half the sum of the edges' angles times the z of their planes' unit normals (Lambert
@@ -79,7 +80,7 @@ double SphericalTriangle::projected_solid_angle() const {
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 &a = vertex_[i], &b = vertex_[(i + 1) % 3];
-        const double angle = std::atan2(glm::length(glm::cross(a, b - a)), glm::dot(a, b));
+        const double angle = elementary::atan2(glm::length(glm::cross(a, b - a)), glm::dot(a, b));
         sum += angle * normal_[i].z;
     }
     return 0.5 * sum;

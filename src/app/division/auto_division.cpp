@@ -5,6 +5,7 @@
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
+#include "geometry/elementary.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/solving/time_limit.h"
 #include "radiosity/light/division/adaptive_division.h"
@@ -124,7 +125,7 @@ void AutoDivision::measure(DivisionErrorOptions options) {
 bool AutoDivision::is_enough(double sampling) {
     constexpr double min_sampling = .6;
     const double division = divided_.error->error;
-    if (std::hypot(division, sampling) <= whole_)
+    if (elementary::hypot(division, sampling) <= whole_)
         return true;
     const auto left = [&](double other) {
         return safe * std::sqrt(std::max(whole_ * whole_ - other * other, 0.0));

@@ -2,6 +2,7 @@
 
 #include "app/settings/text.h"
 #include "app/terminal/stopwatch.h"
+#include "geometry/elementary.h"
 #include "parallel/workers.h"
 #include "radiosity/light/light_error/division_error.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -27,10 +28,10 @@ void enter(Statistics& statistics, const DivisionError& of_patches, bool divide_
     statistics.error_division = of_patches.error;
     statistics.error_division_uncertainty = of_patches.uncertainty;
     if (divide_auto) {
-        const double whole = std::hypot(statistics.error_sampling, of_patches.error);
+        const double whole = elementary::hypot(statistics.error_sampling, of_patches.error);
         statistics.estimated_error_uncertainty =
-            std::hypot(statistics.error_sampling * statistics.estimated_error_uncertainty,
-                       of_patches.error * of_patches.uncertainty) /
+            elementary::hypot(statistics.error_sampling * statistics.estimated_error_uncertainty,
+                              of_patches.error * of_patches.uncertainty) /
             whole;
         statistics.estimated_error = whole;
     }

@@ -5,6 +5,7 @@
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
+#include "geometry/elementary.h"
 #include "io/files/error.h"
 #include "io/lightmaps/covered_texels.h"
 #include "io/lightmaps/lightmap_gather.h"
@@ -35,7 +36,7 @@ constexpr std::size_t max_learned_points = 65'536;
 /// the error, by powers of two from 4 to 64.
 unsigned rays_for(double error) {
     return 1u << static_cast<unsigned>(
-               std::clamp(std::round(4 + 2 * std::log2(.02 / error)), 2.0, 6.0));
+               std::clamp(std::round(4 + 2 * elementary::log2(.02 / error)), 2.0, 6.0));
 }
 
 std::vector<TargetPart> parts_of(std::span<const Sensor> sensors) {
@@ -52,16 +53,19 @@ struct Errors {
     double noise = 0;             ///< of their own, relative [-]
     double noise_uncertainty = 0; ///< one sigma
 
-    [[nodiscard]] double whole() const { return std::hypot(read.error, noise); }
-    [[nodiscard]] double bound() const { return std::hypot(read.bound, noise + noise_uncertainty); }
+    [[nodiscard]] double whole() const { return elementary::hypot(read.error, noise); }
+    [[nodiscard]] double bound() const {
+        return elementary::hypot(read.bound, noise + noise_uncertainty);
+    }
     /// Returns whether the error may be larger or smaller than this one.
     [[nodiscard]] bool is_in_doubt(double limit) const {
         return bound() > limit && whole() - 2 * uncertainty() <= limit;
     }
     [[nodiscard]] double uncertainty() const {
         return whole() > 0
-                   ? std::hypot(read.error * read.uncertainty, noise * noise_uncertainty) / whole()
-                   : std::hypot(read.uncertainty, noise_uncertainty);
+                   ? elementary::hypot(read.error * read.uncertainty, noise * noise_uncertainty) /
+                         whole()
+                   : elementary::hypot(read.uncertainty, noise_uncertainty);
     }
 };
 

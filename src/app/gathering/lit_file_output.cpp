@@ -1,6 +1,7 @@
 #include "app/gathering/lit_file_output.h"
 
 #include "app/rendering/view.h"
+#include "geometry/elementary.h"
 #include "io/gltf/lit_file.h"
 #include "radiosity/paper/sampling/rng.h"
 
@@ -61,7 +62,7 @@ void write_lit_file(const SolveSettings& settings, const std::string& path, cons
     const Binding binding = settings.file_bake.binding;
     Display display = display_of(settings.view);
     if (!settings.view.exposure)
-        display.exposure = auto_exposure(lightmap) * std::exp2(settings.view.stops);
+        display.exposure = auto_exposure(lightmap) * elementary::exp2(settings.view.stops);
     const float largest = largest_shown(lightmap);
     const bool is_shown = binding == Binding::unlit;
     const std::string png =

@@ -2,6 +2,7 @@
 
 #include "app/gathering/learn_options.h"
 #include "app/terminal/stopwatch.h"
+#include "geometry/elementary.h"
 #include "geometry/polygon_sampler.h"
 #include "parallel/workers.h"
 #include "radiosity/light/cached_light/light_cache.h"
@@ -110,8 +111,8 @@ void gather_target(const SolveSettings& settings, const LitScene& scene, Solutio
         light += parts[k].weight * glm::dot(mean.reflected, mean.reflected);
     }
     const double own = light > 0 ? std::sqrt(noise / light) : 0;
-    statistics.estimated_error = std::hypot(read.error, own);
-    statistics.error_bound = std::hypot(read.bound, own);
+    statistics.estimated_error = elementary::hypot(read.error, own);
+    statistics.error_bound = elementary::hypot(read.bound, own);
     statistics.estimated_error_uncertainty = read.uncertainty;
     statistics.rays_learn += read.rays;
     statistics.rays_gather += found.rays;

@@ -2,6 +2,7 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/text.h"
+#include "geometry/elementary.h"
 #include "io/files/error.h"
 #include "io/meshes/baked_light.h"
 #include "io/pictures/exr.h"
@@ -113,12 +114,12 @@ void choose_exposure(ViewSettings& view, const Image& picture, const LitScene& s
 }
 
 Display display_of(const ViewSettings& view) {
-    return {std::exp2(view.stops) * view.exposure.value_or(1), view.tone};
+    return {elementary::exp2(view.stops) * view.exposure.value_or(1), view.tone};
 }
 
 Display display_of(const ViewSettings& view, const Mesh& mesh, const CornerClasses& classes,
                    std::span<const Vec3> of_class) {
-    return {std::exp2(view.stops) *
+    return {elementary::exp2(view.stops) *
                 (view.exposure ? *view.exposure : auto_exposure(mesh, classes, of_class)),
             view.tone};
 }

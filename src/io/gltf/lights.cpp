@@ -1,8 +1,8 @@
 #include "io/gltf/lights.h"
 
+#include "geometry/elementary.h"
 #include "io/scene_files/emitter_shapes.h"
 
-#include <cmath>
 #include <numbers>
 
 namespace hemilux::gltf {
@@ -20,7 +20,8 @@ constexpr double small_radius = 0.002;
 double flux_per_intensity(const Light& light) {
     if (light.kind == Light::Kind::point)
         return 4 * pi;
-    const double inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
+    const double inner = elementary::cos(light.inner_cone),
+                 outer = elementary::cos(light.outer_cone);
     return 2 * pi * (1 - inner + (inner - outer) / 3);
 }
 

@@ -1,12 +1,12 @@
 #include "io/gltf/texture_maps.h"
 
+#include "geometry/elementary.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/gltf/document/uri.h"
 #include "radiosity/light/textures/scene_textures.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hemilux::gltf {
 
@@ -49,7 +49,7 @@ void TextureMaps::add(const TextureInfo& info, std::size_t material, Vec3 Materi
     to.texture = std::move(texture);
     to.wraps = {wrap_of(source.wrap_s), wrap_of(source.wrap_t)};
     to.set = static_cast<std::uint32_t>(info.set);
-    const double c = std::cos(info.rotation), s = std::sin(info.rotation);
+    const double c = elementary::cos(info.rotation), s = elementary::sin(info.rotation);
     to.origin = info.offset;
     to.x = info.scale.x * Vec2(c, -s);
     to.y = info.scale.y * Vec2(s, c);

@@ -1,6 +1,7 @@
 #include "io/pictures/automatic_camera.h"
 
 #include "geometry/box.h"
+#include "geometry/elementary.h"
 #include "parallel/workers.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -31,17 +32,19 @@ Box box_of_near(const Mesh& mesh) {
 
 /// Returns a unit vector from its azimuth and elevation [degrees].
 Vec3 direction(int up, double azimuth, double elevation) {
-    const double a = azimuth * std::numbers::pi / 180, e = elevation * std::numbers::pi / 180;
+    const Vec2 around = elementary::on_circle(azimuth * std::numbers::pi / 180);
+    const Vec2 above = elementary::on_circle(elevation * std::numbers::pi / 180);
     Vec3 result;
-    result[up] = std::sin(e);
-    result[(up + 1) % 3] = std::cos(e) * std::sin(a);
-    result[(up + 2) % 3] = std::cos(e) * std::cos(a);
+    result[up] = above.y;
+    result[(up + 1) % 3] = above.x * around.y;
+    result[(up + 2) % 3] = above.x * around.x;
     return result;
 }
 
 /// Returns a camera outside the box, as near as the whole box fits into the picture.
 Camera outside_camera(const Box& box, const Vec3& up, const Vec3& toward_eye, double aspect) {
-    const double tan_y = std::tan(outside_fov * std::numbers::pi / 360), tan_x = aspect * tan_y;
+    const double tan_y = elementary::tan(outside_fov * std::numbers::pi / 360),
+                 tan_x = aspect * tan_y;
     const Vec3 right = glm::normalize(glm::cross(up, toward_eye));
     const Vec3 upward = glm::cross(toward_eye, right), centre = box.centre();
     double distance = 0;
@@ -67,8 +70,9 @@ std::vector<Camera> candidates(const Box& box, int up_axis, double aspect) {
                 outside_camera(box, up, direction(up_axis, azimuth, elevation), aspect));
     const Vec3 extent = glm::max(box.extent(), Vec3(0.01));
     const double ahead = .5 * glm::length(box.extent()); // the target is a place to read and change
-    const Vec3 n =
-        glm::clamp(glm::round(extent / std::cbrt(extent.x * extent.y * extent.z / 500)), 1.0, 64.0);
+    const Vec3 n = glm::clamp(
+        glm::round(extent / elementary::pow(extent.x * extent.y * extent.z / 500, 1.0 / 3)), 1.0,
+        64.0);
     for (double x = 0.5; x < n.x; ++x)
         for (double y = 0.5; y < n.y; ++y)
             for (double z = 0.5; z < n.z; ++z)
@@ -180,7 +184,9 @@ int guess_up(const Mesh& mesh) {
         down += patch.area * (e.x + e.y + e.z) * glm::max(-patch.normal, Vec3(0.0));
         facing += patch.area * glm::abs(patch.normal);
     }
-    const auto for_z = [](double y, double z) { return std::clamp(std::log(z / y), -1.0, 1.0); };
+    const auto for_z = [](double y, double z) {
+        return std::clamp(elementary::log(z / y), -1.0, 1.0);
+    };
     const double evidence =
         for_z(down.y, down.z) + for_z(facing.y, facing.z) + 0.5 * for_z(extent.z, extent.y);
     return evidence > 0.7 ? 2 : 1;

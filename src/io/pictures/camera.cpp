@@ -1,5 +1,6 @@
 #include "io/pictures/camera.h"
 
+#include "geometry/elementary.h"
 #include "geometry/frame.h"
 #include "io/files/text_words.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -48,7 +49,7 @@ CameraRays::CameraRays(const Camera& camera, const Mesh& mesh, double aspect)
     const Vec3 right = glm::length(side) > parallel * glm::length(camera.up)
                            ? glm::normalize(side)
                            : Frame::from_normal(forward_).x;
-    const double half = std::tan(camera.vertical_fov_degrees * std::numbers::pi / 360);
+    const double half = elementary::tan(camera.vertical_fov_degrees * std::numbers::pi / 360);
     right_ = half * aspect * right;
     up_ = half * glm::cross(right, forward_);
 }

@@ -1,5 +1,6 @@
 #include "io/pictures/image.h"
 
+#include "geometry/elementary.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/pictures/picture_provenance.h"
@@ -105,7 +106,9 @@ float srgb_from_linear(float linear) {
         return 0;
     if (linear >= 1)
         return 1;
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+    return linear <= 0.0031308f
+               ? 12.92f * linear
+               : static_cast<float>(1.055 * elementary::pow(linear, 1 / 2.4) - 0.055);
 }
 
 float linear_from_srgb(float encoded) {
@@ -113,7 +116,9 @@ float linear_from_srgb(float encoded) {
         return 0;
     if (encoded >= 1)
         return 1;
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+    return encoded <= 0.04045f
+               ? encoded / 12.92f
+               : static_cast<float>(elementary::pow((encoded + 0.055) / 1.055, 2.4));
 }
 
 double auto_exposure(const Image& image, const Image& emission) {

@@ -1,6 +1,7 @@
 #include "io/polygons/convex_triangles.h"
 
-#include <cmath>
+#include "geometry/elementary.h"
+
 #include <utility>
 
 namespace hemilux {
@@ -10,7 +11,7 @@ namespace hemilux {
 std::vector<std::array<std::uint32_t, 3>> convex_triangles(std::span<const Vec3> corners) {
     const auto angle_at = [&](std::uint32_t i, std::uint32_t from, std::uint32_t to) {
         const Vec3 a = corners[from] - corners[i], b = corners[to] - corners[i];
-        return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+        return elementary::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
     };
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> chords{

@@ -1,6 +1,7 @@
 #include "io/results/smooth.h"
 
 #include "bvh/tracer.h"
+#include "geometry/elementary.h"
 #include "geometry/numeric.h"
 #include "io/polygons/convex_triangles.h"
 #include "io/results/corner_meetings.h"
@@ -8,7 +9,6 @@
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <unordered_map>
 
@@ -18,7 +18,7 @@ namespace {
 /// Surfaces that meet at a larger angle [degrees] are shaded apart. A column of twelve sides is
 /// still smooth.
 constexpr double crease_angle = 31;
-const double crease_cosine = std::cos(crease_angle * std::numbers::pi / 180);
+const double crease_cosine = elementary::cos(crease_angle * std::numbers::pi / 180);
 
 /// Classes among the corners of one point. Nearly equal normals share one delegate, so that the
 /// apex of a fan of many facets does not take quadratic time.
@@ -55,7 +55,7 @@ class Classifier {
         return delegate.material == patch.material ? glm::dot(delegate.normal, patch.normal) : -1;
     }
 
-    double same_ = std::cos(0.5 * std::numbers::pi / 180);
+    double same_ = elementary::cos(0.5 * std::numbers::pi / 180);
     std::vector<Delegate> delegates_;
 };
 
@@ -152,7 +152,7 @@ double corner_angle(const Polygon& shape, std::size_t c) {
     const auto n = static_cast<std::size_t>(shape.size());
     const Vec3 a = shape.corner[(c + 1) % n] - shape.corner[c];
     const Vec3 b = shape.corner[(c + n - 1) % n] - shape.corner[c];
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+    return elementary::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 std::array<double, 4> triangle_weights(const Polygon& shape, const Vec3& point) {

@@ -1,5 +1,6 @@
 #include "io/scene_files/emitter_shapes.h"
 
+#include "geometry/elementary.h"
 #include "geometry/frame.h"
 #include "geometry/numeric.h"
 
@@ -42,9 +43,8 @@ EmitterShape disc(const Vec3& centre, const Vec3& normal, double radius) {
     EmitterShape shape;
     shape.points.push_back(centre);
     for (std::uint32_t i = 0; i < n; ++i) {
-        const double angle = 2 * pi * i / n;
-        shape.points.push_back(centre +
-                               radius * (std::cos(angle) * frame.x + std::sin(angle) * frame.y));
+        const Vec2 at = elementary::on_circle(2 * pi * i / n);
+        shape.points.push_back(centre + radius * (at.x * frame.x + at.y * frame.y));
         const std::uint32_t next = 1 + (i + 1) % n;
         shape.faces.push_back({0, 1 + i, next, next});
     }

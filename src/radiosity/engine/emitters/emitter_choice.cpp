@@ -191,6 +191,7 @@ void EmitterChoice::choose_clusters(const EmitterReceiver& to, Cut& cut) const {
     cut.clusters.clear();
     for (const Near& near : heap)
         cut.clusters.push_back(near.second);
+    std::ranges::sort(cut.clusters); // libraries build heaps in different orders
     const auto is_of_many = [&](std::uint32_t c) { return clusters_[c].left != 0; };
     const auto single = std::stable_partition(cut.clusters.begin(), cut.clusters.end(), is_of_many);
     for (auto& array : cut.of_many)

@@ -1,6 +1,7 @@
 #include "radiosity/engine/form_factors/exchange_area.h"
 
 #include "geometry/box.h"
+#include "geometry/elementary.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,7 @@ double log_integral(const Vec3& x, const Vec3& start, const Vec3& e, double leng
         const double square = u * u + h * h;
         if (!(square > 0))
             return 0.0;
-        return 0.5 * u * std::log(square) - u + (h > 0 ? h * std::atan(u / h) : 0.0);
+        return 0.5 * u * elementary::log(square) - u + (h > 0 ? h * elementary::atan(u / h) : 0.0);
     };
     return primitive(length - along) - primitive(-along);
 }

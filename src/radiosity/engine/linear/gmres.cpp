@@ -1,5 +1,7 @@
 #include "radiosity/engine/linear/gmres.h"
 
+#include "geometry/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -33,7 +35,7 @@ void scale(Vector& x, double factor) {
 struct Rotation {
     double c = 1, s = 0;
     Rotation(double a, double b) {
-        const double r = std::hypot(a, b);
+        const double r = elementary::hypot(a, b);
         if (r > 0) {
             c = a / r;
             s = b / r;
@@ -141,7 +143,7 @@ GmresResult gmres(const LinearMap& multiply, const std::vector<double>& b, std::
             return result;
         // A cycle that gains less than this would not get to the tolerance within the iterations.
         const double share = double(length) / double(options.max_iterations);
-        if (result.residual > std::pow(options.tolerance, share) * before)
+        if (result.residual > elementary::pow(options.tolerance, share) * before)
             length = std::min(2 * length, std::max(options.max_restart, length));
         before = result.residual;
         result.iterations += cycle.run(length, r, beta, options.tolerance * size / 2, x);

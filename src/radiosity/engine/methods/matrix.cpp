@@ -253,7 +253,7 @@ double bytes(const SolveOptions& options, double patches) {
     const auto& factors = options.own.of<FactorOptions>();
     if (factors.kind == FactorKind::hemicube)
         return bytes_per_factor * patches *
-               std::min(patches, 3.0 * std::pow(factors.hemicube_edge, 2));
+               std::min(patches, 3.0 * factors.hemicube_edge * factors.hemicube_edge);
     return double(batches) * bytes_per_factor * patches * std::min(patches, options.rays) +
            bytes_of_solvers(options, patches);
 }

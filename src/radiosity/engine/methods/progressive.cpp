@@ -30,6 +30,7 @@
 // needs hardly any memory. It is not unbiased: after a finite number of shots some light is
 // missing.
 
+#include "geometry/elementary.h"
 #include "radiosity/engine/form_factors/factor_options.h"
 #include "radiosity/engine/progressive/progressive_pass.h"
 #include "radiosity/engine/solving/one_shot.h"
@@ -42,7 +43,6 @@
 #include "radiosity/paper/solving/progressive_options.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -111,7 +111,7 @@ class ProgressiveSolver final : public Solver {
   private:
     [[nodiscard]] double rays_per_light() const {
         return rays_per_light_unit * input_.options.rays *
-               std::pow(growth_of_passes, double(passes_));
+               elementary::whole_power(growth_of_passes, passes_);
     }
 
     /// A pass is weighted by its rays.

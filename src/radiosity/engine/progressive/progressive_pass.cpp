@@ -1,5 +1,6 @@
 #include "radiosity/engine/progressive/progressive_pass.h"
 
+#include "geometry/elementary.h"
 #include "radiosity/engine/form_factors/factor_options.h"
 #include "radiosity/engine/form_factors/pair_factor.h"
 #include "radiosity/paper/rays/shot.h"
@@ -137,7 +138,8 @@ bool ProgressivePass::is_done() const {
 /// that are alike except for rounding errors, the first shoots first.
 void ProgressivePass::rank(std::uint32_t patch) {
     const double share = unshot_power(patch) / mean_of_channels(emitted_);
-    brightest_.set(patch, share > 0 ? std::exp2(std::round(256 * std::log2(share)) / 256) : 0);
+    brightest_.set(
+        patch, share > 0 ? elementary::exp2(std::round(256 * elementary::log2(share)) / 256) : 0);
 }
 
 /// Returns the mean of channels. Overshooting leaves negative light, which counts alike.

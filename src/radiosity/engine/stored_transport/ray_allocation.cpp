@@ -1,5 +1,6 @@
 #include "radiosity/engine/stored_transport/ray_allocation.h"
 
+#include "geometry/elementary.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
@@ -35,7 +36,8 @@ std::vector<double> rounded(std::span<const double> weights, double largest) {
     for (std::size_t i = 0; i < weights.size(); ++i)
         result.push_back(
             weights[i] > 0
-                ? std::exp2(std::round(16 * std::log2(weights[i] / largest)) / 16 + dither(i))
+                ? elementary::exp2(std::round(16 * elementary::log2(weights[i] / largest)) / 16 +
+                                   dither(i))
                 : 0);
     return result;
 }
@@ -61,7 +63,7 @@ std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double m
     };
     // Sets the rays and returns their sum.
     const auto allocate = [&](double log_per_weight) {
-        const double per_weight = std::exp(log_per_weight);
+        const double per_weight = elementary::exp(log_per_weight);
         std::uint64_t sum = 0;
         for (std::uint32_t i = 0; i < weights.size(); ++i)
             if (weights[i] > 0)
@@ -72,7 +74,7 @@ std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double m
     // Where as many are allocated at both ends, all patches get as many at one as at the other.
     const double all =
         mean * double(std::ranges::count_if(weights, [](double weight) { return weight > 0; }));
-    double low = std::log(min_share * mean), high = low + 80;
+    double low = elementary::log(min_share * mean), high = low + 80;
     std::uint64_t sum_low = allocate(low), sum_high = allocate(high);
     for (int k = 0; k < 50 && sum_low < sum_high; ++k) {
         const double middle = (low + high) / 2;

@@ -1,5 +1,6 @@
 #include "radiosity/engine/stored_transport/ray_plan.h"
 
+#include "geometry/elementary.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/engine/stored_transport/ray_allocation.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -87,7 +88,7 @@ void RayPlan::begin() {
 void RayPlan::aim(std::span<const double> importance) {
     aim_.clear();
     for (const double each : importance) // as variances in weigh_emitters()
-        aim_.push_back(std::pow(each, 1 / (1 + variance_fall)));
+        aim_.push_back(elementary::pow(each, 1 / (1 + variance_fall)));
 }
 
 /// Returns what is expected for each patch, over the mean of those that are to get more: as much as
@@ -196,7 +197,8 @@ void RayPlan::split(double rays, const ErrorSoFar& known) {
     if (!(before_.to_emitters > 0))
         return;
     const auto due = [](double variance, double rays_before) {
-        return std::pow(variance * std::pow(rays_before, variance_fall), 1 / (1 + variance_fall));
+        return elementary::pow(variance * elementary::pow(rays_before, variance_fall),
+                               1 / (1 + variance_fall));
     };
     const double random =
         due(std::max(known.variance - known.variance_from_emitters, 0.0), before_.random);
@@ -213,9 +215,10 @@ void RayPlan::split(double rays, const ErrorSoFar& known) {
 double RayPlan::predicted(const ErrorSoFar& known) const {
     const double of_emitters =
         known.variance > 0 ? std::min(known.variance_from_emitters / known.variance, 1.0) : 0;
-    double left = (1 - of_emitters) * std::pow(before_.random / now_.random, variance_fall);
+    double left = (1 - of_emitters) * elementary::pow(before_.random / now_.random, variance_fall);
     if (now_.to_emitters > 0)
-        left += of_emitters * std::pow(before_.to_emitters / now_.to_emitters, variance_fall);
+        left +=
+            of_emitters * elementary::pow(before_.to_emitters / now_.to_emitters, variance_fall);
     return known.relative * std::sqrt(left);
 }
 

@@ -1,5 +1,6 @@
 #include "radiosity/engine/stored_transport/ray_weights.h"
 
+#include "geometry/elementary.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/paper/scene/alike_neighbours.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -29,7 +30,7 @@ RayWeights::RayWeights(const Mesh& mesh, const Needs& needs) : mesh_(mesh) {
         reflectance_.push_back(mesh.material(i).reflectance);
         const double reflectance = glm::length(reflectance_[i]);
         const double counted = std::min(mesh.patches()[i].area, largest);
-        const double area = needs.power(i) ? std::pow(counted, area_exponent) : 0;
+        const double area = needs.power(i) ? elementary::pow(counted, area_exponent) : 0;
         prior_to_emitters_.push_back(area * reflectance);
         prior_random_.push_back(area * std::max(reflectance, min_reflectance));
     }
@@ -104,8 +105,8 @@ void RayWeights::weigh_emitters(std::span<const double> variance,
         if (!lit[i])
             prior[i] = 0;
         if (prior[i] > 0)
-            known[i] =
-                std::pow(variance[i] * std::pow(rays[i], variance_fall), 1 / (1 + variance_fall));
+            known[i] = elementary::pow(variance[i] * elementary::pow(rays[i], variance_fall),
+                                       1 / (1 + variance_fall));
     }
     // A patch may have missed what its neighbours have found.
     std::vector<double> smooth(known.size());

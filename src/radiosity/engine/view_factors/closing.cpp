@@ -1,5 +1,7 @@
 #include "radiosity/engine/view_factors/closing.h"
 
+#include "geometry/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -251,8 +253,8 @@ ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
             // What is not listed went to where the row is least certain.
             if (variance > 0)
                 list.open[i][k].standard_error =
-                    std::hypot(remaining(variance, variance / own) / list.area[i],
-                               variance / own * list.unlisted[i]);
+                    elementary::hypot(remaining(variance, variance / own) / list.area[i],
+                                      variance / own * list.unlisted[i]);
         }
         for (std::size_t k = 0; k < list.pairs[i].size(); ++k) {
             PairExchange& pair = list.pairs[i][k];

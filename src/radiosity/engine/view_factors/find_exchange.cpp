@@ -1,5 +1,6 @@
 #include "radiosity/engine/view_factors/find_exchange.h"
 
+#include "geometry/elementary.h"
 #include "radiosity/engine/view_factors/line_samples.h"
 #include "radiosity/engine/view_factors/pair_hull.h"
 #include "radiosity/engine/view_factors/pair_rays.h"
@@ -96,7 +97,8 @@ std::uint32_t RowPairs::probes_of(std::uint32_t i, const Candidate& pair) const 
 double RowPairs::missed_chance(std::uint32_t i, const Candidate& pair, double exchange,
                                double share) const {
     const double hits = options_.rays * exchange * (1 / faces_[i].area + 1 / faces_[pair.to].area);
-    return std::exp(-hits) * std::pow(1 - std::min(share, 1.0), double(probes_of(i, pair)));
+    return elementary::exp(-hits) *
+           elementary::whole_power(1 - std::min(share, 1.0), probes_of(i, pair));
 }
 
 /// Lists those of higher index that were seen from either side, and others that face the patch and
@@ -182,7 +184,7 @@ void RowPairs::estimate(std::uint32_t i, const Candidate& candidate,
     if (!(free > 0))
         return;
     const double allowed = tolerance(i, j, free);
-    const double rays = std::pow(free / (2 * allowed), 1.6);
+    const double rays = elementary::pow(free / (2 * allowed), 1.6);
     if (rays <= max_pair_rays) {
         const auto count = std::max(static_cast<std::uint32_t>(std::ceil(rays)), min_pair_rays);
         rays_.add(a, mesh_.patches()[i].facet, b, mesh_.patches()[j].facet, count,

@@ -1,8 +1,9 @@
 #include "radiosity/engine/view_factors/free_exchange.h"
 
+#include "geometry/elementary.h"
+
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 
 namespace hemilux {
@@ -19,7 +20,8 @@ Rule gauss_rule(std::size_t n) {
     Rule rule{n, {}, {}};
     for (std::size_t k = 0; k < n; ++k) {
         const auto count = static_cast<double>(n);
-        double x = std::cos(std::numbers::pi * (static_cast<double>(k) + .75) / (count + .5));
+        double x =
+            elementary::cos(std::numbers::pi * (static_cast<double>(k) + .75) / (count + .5));
         double slope = 1;
         for (int iteration = 0; iteration < 50; ++iteration) {
             double before = 1, value = x;

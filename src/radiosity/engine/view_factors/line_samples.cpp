@@ -1,5 +1,6 @@
 #include "radiosity/engine/view_factors/line_samples.h"
 
+#include "geometry/elementary.h"
 #include "geometry/polygon_sampler.h"
 #include "radiosity/paper/sampling/rng.h"
 
@@ -33,7 +34,7 @@ struct LineSamples::Line {
     /// Returns an integral of the kernel up to t.
     [[nodiscard]] double kernel_up_to(double t) const {
         const double u = t + shift, inverse = 1 / (u * u + m * m);
-        const double angle = std::atan(u / m) / m, once = u * inverse;
+        const double angle = elementary::atan(u / m) / m, once = u * inverse;
         return .5 * (n0 * (once + angle) / (m * m) - n1 * inverse + n2 * (angle - once));
     }
 };
@@ -183,7 +184,7 @@ SeenShare LineSamples::estimate(unsigned cells, LinesAlong along, std::uint64_t 
     const double n = whole_squares > 0 ? sum.y * sum.y / whole_squares : 0;
     const double own = sum.y > 0 ? squares / (sum.y * sum.y) : 0;
     const double p = (n * result.share + .5) / (n + 1),
-                 prior = p * (1 - p) * std::pow(std::max(n, 1.0), prior_power);
+                 prior = p * (1 - p) * elementary::pow(std::max(n, 1.0), prior_power);
     result.variance = (own * n / 2 + prior * prior_twins) / (n / 2 + prior_twins);
     return result;
 }

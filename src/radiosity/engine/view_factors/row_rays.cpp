@@ -1,5 +1,6 @@
 #include "radiosity/engine/view_factors/row_rays.h"
 
+#include "geometry/elementary.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/rays/shot.h"
@@ -76,7 +77,7 @@ OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, double error, 
                     if (too_large <= 1 || rays == most_rays)
                         break;
                     // The error falls about as the power -0.6 of the rays.
-                    const double wanted = rays * std::pow(too_large, 1 / .6);
+                    const double wanted = rays * elementary::pow(too_large, 1 / .6);
                     while (rays < wanted && rays < most_rays)
                         rays *= 2;
                 }

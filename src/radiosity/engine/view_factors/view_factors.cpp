@@ -1,6 +1,7 @@
 #include "radiosity/engine/view_factors/view_factors.h"
 
 #include "geometry/compensated_sum.h"
+#include "geometry/elementary.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 
@@ -76,7 +77,8 @@ ViewFactors sum_over_rows(const ExchangeList& list, std::span<const std::uint32_
             const OpenShare& of_patch = list.open[i][k];
             OpenShare& sum = factors.open[row][k];
             sum.factor += share * of_patch.factor;
-            sum.standard_error = std::hypot(sum.standard_error, share * of_patch.standard_error);
+            sum.standard_error =
+                elementary::hypot(sum.standard_error, share * of_patch.standard_error);
         }
     }
     sum_pairs(list, row_of, factors);

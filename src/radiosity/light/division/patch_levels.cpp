@@ -1,7 +1,8 @@
 #include "radiosity/light/division/patch_levels.h"
 
+#include "geometry/elementary.h"
+
 #include <algorithm>
-#include <cmath>
 
 namespace hemilux {
 namespace {
@@ -28,8 +29,8 @@ Outcome outcome_of(std::span<const double> square, double bound) {
     Outcome outcome;
     for (const double s : square) {
         const std::uint8_t levels = levels_to(s, bound);
-        outcome.square += s * std::pow(left_by_level, levels);
-        outcome.pieces += std::pow(pieces_of_level, levels);
+        outcome.square += s * elementary::whole_power(left_by_level, levels);
+        outcome.pieces += elementary::whole_power(pieces_of_level, levels);
     }
     return outcome;
 }

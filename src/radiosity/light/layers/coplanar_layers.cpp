@@ -1,5 +1,6 @@
 #include "radiosity/light/layers/coplanar_layers.h"
 
+#include "geometry/elementary.h"
 #include "geometry/polygon.h"
 #include "radiosity/light/layers/coplanar_overlaps.h"
 
@@ -85,7 +86,7 @@ class LayerFinder {
         const Vec3 normal = polygon_of(vertices, scene.facets[f].vertex).area_vector();
         const Vec3& e = scene.materials[scene.facets[f].material].emission;
         const double area = glm::length(normal);
-        return {normal, area, e.x + e.y + e.z, std::floor(std::log2(area) + odd), 0};
+        return {normal, area, e.x + e.y + e.z, std::floor(elementary::log2(area) + odd), 0};
     }
 
     /// Collects in stack_ all facets that are connected with i, and finds which way each of them

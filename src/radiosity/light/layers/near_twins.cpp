@@ -1,4 +1,5 @@
 #include "geometry/box.h"
+#include "geometry/elementary.h"
 #include "geometry/polygon.h"
 #include "radiosity/light/layers/coplanar_layers.h"
 #include "radiosity/light/layers/coplanar_overlaps.h"
@@ -39,7 +40,7 @@ std::uint64_t hash_of_cell(const Vec3& corner, double cell, double shift) {
 std::uint64_t key_of(const Polygon& shape, int round) {
     constexpr double golden = 0.6180339887;
     const double shift = golden * (round + 1); // no drawn wall is on a border
-    const double width = width_of(shape) * std::exp2(double(round) / rounds);
+    const double width = width_of(shape) * elementary::exp2(double(round) / rounds);
     if (!(width > narrowest_twin))
         return 0;
     int exponent = 0;

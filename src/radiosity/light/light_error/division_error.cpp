@@ -1,5 +1,6 @@
 #include "radiosity/light/light_error/division_error.h"
 
+#include "geometry/elementary.h"
 #include "parallel/workers.h"
 #include "radiosity/light/cached_light/light_cache.h"
 #include "radiosity/light/final_gather/light_within_patches.h"
@@ -106,7 +107,7 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
         if (interrupted)
             return {};
         const double whole = std::sqrt(std::max(all.square + seen, seen));
-        all.sigma = std::hypot(all.sigma, read.error * whole);
+        all.sigma = elementary::hypot(all.sigma, read.error * whole);
         error_of_read = std::max(share_of_read * whole, options.negligible);
         if (!(read.bound > error_of_read) || learned > options.max_rays)
             break;

@@ -1,5 +1,6 @@
 #include "radiosity/light/light_error/error_at_points.h"
 
+#include "geometry/elementary.h"
 #include "parallel/workers.h"
 #include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/light/final_gather/final_gather.h"
@@ -129,7 +130,7 @@ SquaredError ErrorAtPoints::find(const OtherError& other, std::size_t points_per
             break;
         }
     }
-    return {rounds.mean() - other.square, std::hypot(uncertainty, other.scatter),
+    return {rounds.mean() - other.square, elementary::hypot(uncertainty, other.scatter),
             rounds.count * points, gather_.rays()};
 }
 

@@ -22,8 +22,8 @@ Ray diffuse_ray_at(const Mesh& mesh, FacetSide side, const Vec3& point, Rng& rng
 }
 
 Vec3 random_point(const Mesh& mesh, std::uint32_t facet, Rng& rng) {
-    const Vec2 u(rng.uniform(), rng.uniform());
-    return mesh.shape_of(facet).sample(u);
+    const double u = rng.uniform(), v = rng.uniform();
+    return mesh.shape_of(facet).sample({u, v});
 }
 
 /// Follows a path from surface to surface, for as long as arrive(side) says so; `side` is empty

@@ -104,7 +104,8 @@ void measure(const Scene& scene, Shell& shell, Shells& shells) {
         volume = -volume;
     }
     shell.against = turned / (turned + kept);
-    if (shell.closed && std::abs(volume) > flat * std::pow(turned + kept, 1.5))
+    const double whole = turned + kept;
+    if (shell.closed && std::abs(volume) > flat * whole * std::sqrt(whole))
         shell.outwards = volume > 0 ? 1 : -1;
 }
 

@@ -1,5 +1,7 @@
 #include "radiosity/light/textures/texture.h"
 
+#include "geometry/elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -227,7 +229,7 @@ const std::array<double, 256>& srgb_to_linear() {
         std::array<double, 256> values{};
         for (std::size_t k = 0; k < values.size(); ++k) {
             const double c = double(k) / 255;
-            values[k] = c <= .04045 ? c / 12.92 : std::pow((c + .055) / 1.055, 2.4);
+            values[k] = c <= .04045 ? c / 12.92 : elementary::pow((c + .055) / 1.055, 2.4);
         }
         return values;
     }();

@@ -1,6 +1,6 @@
 #include "radiosity/paper/hemisphere/edge_division.h"
 
-#include <cmath>
+#include "geometry/elementary.h"
 
 namespace hemilux {
 
@@ -9,10 +9,11 @@ double division_share(double ns_1, double ns_2) {
 }
 
 Vec3 point_on_arc(const Vec3& a, const Vec3& b, double share) {
-    const double angle = std::atan2(glm::length(glm::cross(a, b - a)), glm::dot(a, b));
-    if (!(std::sin(angle) > 0)) // an edge without length
+    const double angle = elementary::atan2(glm::length(glm::cross(a, b - a)), glm::dot(a, b));
+    if (!(elementary::sin(angle) > 0)) // an edge without length
         return a;
-    return glm::normalize(std::sin((1 - share) * angle) * a + std::sin(share * angle) * b);
+    return glm::normalize(elementary::sin((1 - share) * angle) * a +
+                          elementary::sin(share * angle) * b);
 }
 
 CountedDirection estimated_point(const CountedDirection& a, const CountedDirection& b) {

@@ -1,5 +1,6 @@
 #include "radiosity/paper/scene/mesh.h"
 
+#include "geometry/elementary.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
@@ -110,7 +111,7 @@ Frame Mesh::hemisphere_frame(std::uint32_t patch) const {
 Vec2 Mesh::hemisphere_turn(std::uint32_t patch) {
     const double angle =
         2 * std::numbers::pi * (static_cast<double>(mix_bits(patch + 1u) >> 11) * 0x1p-53);
-    return {std::cos(angle), std::sin(angle)};
+    return elementary::on_circle(angle);
 }
 
 FacetSoup Mesh::soup() const { return {facets_.vertices, facets_.corners}; }

@@ -1,5 +1,6 @@
 #include "radiosity/paper/solution/error_spread.h"
 
+#include "geometry/elementary.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/solution.h"
 
@@ -19,8 +20,9 @@ double quantile_of_f(double above, double below) {
     const double a = 2 / (9 * above), b = 2 / (9 * below);
     const double root = std::sqrt((1 - b) * (1 - b) * a + (1 - a) * (1 - a) * b - z * z * a * b);
     const double below_of_ratio = (1 - b) * (1 - b) - z * z * b;
-    return below_of_ratio <= 0 ? std::numeric_limits<double>::infinity()
-                               : std::pow(((1 - a) * (1 - b) + z * root) / below_of_ratio, 3.0);
+    return below_of_ratio <= 0
+               ? std::numeric_limits<double>::infinity()
+               : elementary::whole_power(((1 - a) * (1 - b) + z * root) / below_of_ratio, 3);
 }
 
 /// The largest number of degrees of freedom that a few batches can tell from any larger one.

@@ -1,6 +1,7 @@
 #include "radiosity/paper/solution/solution.h"
 
 #include "geometry/compensated_sum.h"
+#include "geometry/elementary.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/error_spread.h"
 
@@ -101,7 +102,8 @@ ZScores z_scores(const Mesh& mesh, const Solution& solution, std::span<const Vec
         if (solution.hits[i] < min_hits)
             continue;
         for (int c = 0; c < 3; ++c) {
-            const double sigma = std::hypot(solution.standard_error[i][c], reference_error[i][c]);
+            const double sigma =
+                elementary::hypot(solution.standard_error[i][c], reference_error[i][c]);
             if (!(sigma > 0))
                 continue;
             const double score = (solution.radiosity[i][c] - reference[i][c]) / sigma;

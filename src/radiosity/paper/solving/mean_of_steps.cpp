@@ -1,5 +1,6 @@
 #include "radiosity/paper/solving/mean_of_steps.h"
 
+#include "geometry/elementary.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/scene/alike_neighbours.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -9,7 +10,6 @@
 #include "radiosity/paper/solving/check_input.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace hemilux {
@@ -102,7 +102,7 @@ void MeanOfSteps::estimate_errors() {
         of_patch.push_back(area * (variance[i].x + variance[i].y + variance[i].z));
         sum += of_patch.back();
         value += area * glm::dot(reflected, reflected);
-        alone = std::hypot(alone, area * glm::dot(reflected, glm::sqrt(variance[i])));
+        alone = elementary::hypot(alone, area * glm::dot(reflected, glm::sqrt(variance[i])));
     }
     // The level has this relative variance, less what patches that err independently make of it.
     const double shown = sums.level_squares / (n * (n - 1));

@@ -150,7 +150,7 @@ void PyramidMap::add_leaves(std::uint32_t patch, std::size_t cell,
             add_leaves(patch, triangle.first_child + child, result);
         return;
     }
-    const double mean_solid_angle = 2 * std::numbers::pi / (4 * std::pow(4.0, hemisphere_.depth()));
+    const double mean_solid_angle = 2 * std::numbers::pi / std::ldexp(4, 2 * hemisphere_.depth());
     const double crowd = patches * mean_solid_angle / triangle.solid_angle;
     result.push_back({static_cast<std::uint16_t>(cell), static_cast<float>(std::sqrt(crowd))});
 }

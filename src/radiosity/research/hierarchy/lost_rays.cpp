@@ -1,5 +1,6 @@
 #include "radiosity/research/hierarchy/lost_rays.h"
 
+#include "geometry/elementary.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/solution/missed_light.h"
@@ -108,7 +109,7 @@ double LostRays::uncertain_light(std::span<const double> area, std::span<const V
     }
     if (!(emitted > 0) || !(all_rays > 0))
         return 0;
-    return std::hypot(rule_of_three * leaving / all_rays, std::sqrt(variance)) / emitted;
+    return elementary::hypot(rule_of_three * leaving / all_rays, std::sqrt(variance)) / emitted;
 }
 
 std::vector<NormalisedRows> normalise_rows(const LostRays& lost,

@@ -91,8 +91,6 @@ void PatchTree::divide(std::uint32_t at) {
     const std::size_t half = halve_at_median(
         own, [this](std::uint32_t patch) -> const Vec3& { return mesh_.patches()[patch].centre; });
     const std::uint32_t middle = begin + static_cast<std::uint32_t>(half);
-    std::ranges::sort(own.first(half));
-    std::ranges::sort(own.subspan(half));
     const auto child = static_cast<std::uint32_t>(nodes_.size());
     nodes_[at].child = child;
     nodes_.push_back({begin, middle});

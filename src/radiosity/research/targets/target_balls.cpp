@@ -1,6 +1,7 @@
 #include "radiosity/research/targets/target_balls.h"
 
 #include "geometry/box.h"
+#include "geometry/elementary.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -119,9 +120,9 @@ std::optional<TargetBall::Aimed> TargetBall::aim(const Vec3& origin, const Vec3&
     const double distance = glm::length(to_centre), sine = radius / distance;
     const double cap = sine * sine / (1 + std::sqrt(1 - sine * sine)); // 1 - cosine
     const double z = 1 - u.x * cap, r = std::sqrt(std::max(0.0, 1 - z * z));
-    const double turn = 2 * std::numbers::pi * u.y;
-    const Vec3 direction = Frame::from_normal(to_centre / distance)
-                               .to_world({r * std::cos(turn), r * std::sin(turn), z});
+    const Vec2 turn = elementary::on_circle(2 * std::numbers::pi * u.y);
+    const Vec3 direction =
+        Frame::from_normal(to_centre / distance).to_world({r * turn.x, r * turn.y, z});
     const double power = 2 * cap * glm::dot(normal, direction); // the solid angle is 2 pi cap
     if (!(power > 0))
         return std::nullopt;
