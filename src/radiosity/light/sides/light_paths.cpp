@@ -22,7 +22,7 @@ Ray diffuse_ray_at(const Mesh& mesh, FacetSide side, const Vec3& point, Rng& rng
 }
 
 Vec3 random_point(const Mesh& mesh, std::uint32_t facet, Rng& rng) {
-    const double u = rng.uniform(), v = rng.uniform();
+    const double v = rng.uniform(), u = rng.uniform();
     return mesh.shape_of(facet).sample({u, v});
 }
 
