@@ -2,8 +2,9 @@
 //
 //     make_unseen_scenes FOLDER [SEEDS]
 //
-// FOLDER/wall_KIND_HIDDEN_SEED.obj for each kind of wall and what it hides, and
-// FOLDER/furnished_SEED.obj, for the seeds 1 to SEEDS (2).
+// FOLDER/wall_KIND_HIDDEN_SEED.obj for each kind of wall and what it hides,
+// FOLDER/obstacle_KIND_HIDDEN_SEED.obj for each kind of obstacle, and FOLDER/furnished_SEED.obj,
+// for the seeds 1 to SEEDS (2).
 #include "unseen_scenes.h"
 
 #include <cstdio>
@@ -36,6 +37,9 @@ void write_all(const std::filesystem::path& folder, std::uint64_t seeds) {
         for (std::size_t wall = 0; wall < wall_names.size(); ++wall)
             for (std::size_t hidden = 0; hidden < hidden_names.size(); ++hidden)
                 write(folder, make_wall_scene(Wall{wall}, Hidden{hidden}, seed));
+        for (std::size_t obstacle = 0; obstacle < obstacle_names.size(); ++obstacle)
+            for (std::size_t hidden = 0; hidden < hidden_names.size(); ++hidden)
+                write(folder, make_obstacle_scene(Obstacle{obstacle}, Hidden{hidden}, seed));
         write(folder, make_furnished_room(seed));
     }
 }

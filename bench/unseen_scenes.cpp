@@ -25,10 +25,12 @@ void define_materials(SceneWriter& writer, Rng& rng) {
 constexpr double room_width = 6, room_height = 3;
 constexpr double wall_z = 1.3, wall_thickness = 0.1;
 
-void add_slab(SceneWriter& writer, double left, double right, double height) {
+/// From `bottom` on, at the distance z from the wall behind what it hides.
+void add_slab(SceneWriter& writer, double left, double right, double height, double bottom = 0,
+              double z = wall_z) {
     const int columns = std::max(1, static_cast<int>((right - left) / .4));
     const int rows = std::max(1, static_cast<int>(height / .4));
-    add_block(writer, Placement((left + right) / 2, 0, wall_z),
+    add_block(writer, Placement((left + right) / 2, bottom, z),
               {right - left, height, wall_thickness}, {columns, rows, 1});
 }
 
@@ -46,6 +48,32 @@ void add_wall(SceneWriter& writer, Wall wall) {
         add_slab(writer, left, 3.6, high);
         add_slab(writer, 4.1, right, high);
     }
+}
+
+void add_obstacle(SceneWriter& writer, Obstacle obstacle, Rng& rng) {
+    constexpr double left = gap, right = room_width - gap, high = room_height - 2 * gap;
+    const double z = between(rng, 1.3, 2.8);
+    writer.group("obstacle");
+    writer.use("cream");
+    if (obstacle == Obstacle::partition) {
+        const double opening = between(rng, .8, 2);
+        rng.uniform() < .5 ? add_slab(writer, left, right - opening, high, 0, z)
+                           : add_slab(writer, left + opening, right, high, 0, z);
+    }
+    if (obstacle == Obstacle::door) {
+        constexpr double door_height = 2.05;
+        const double width = between(rng, .8, 1.1), from = between(rng, .3, right - width - .3);
+        add_slab(writer, left, from, high, 0, z);
+        add_slab(writer, from + width, right, high, 0, z);
+        add_slab(writer, from + gap, from + width - gap, high - door_height, door_height, z);
+    }
+    if (obstacle == Obstacle::screen) {
+        const double width = between(rng, 1.4, 3.6), height = between(rng, 1.3, 2.5),
+                     from = between(rng, .1, right - width - .1);
+        add_slab(writer, from, from + width, height, 0, z);
+    }
+    if (obstacle == Obstacle::half)
+        add_slab(writer, left, right, between(rng, .8, 1.6), 0, z);
 }
 
 void add_crowd(SceneWriter& writer, Rng& rng) {
@@ -147,6 +175,24 @@ SceneWriter make_wall_scene(Wall wall, Hidden hidden, std::uint64_t seed) {
     add_wall(writer, wall);
     writer.group("chair");
     add_chair(writer, Placement(between(rng, 2, 4.5), 0, 3.6).facing(1, .3));
+    return writer;
+}
+
+SceneWriter make_obstacle_scene(Obstacle obstacle, Hidden hidden, std::uint64_t seed) {
+    const auto kind = static_cast<std::size_t>(obstacle), what = static_cast<std::size_t>(hidden);
+    Rng rng(hash_words({0x0b57, kind, what, seed}));
+    SceneWriter writer(std::string("obstacle_") + obstacle_names[kind] + "_" + hidden_names[what] +
+                       "_" + std::to_string(seed));
+    define_materials(writer, rng);
+    writer.group("room");
+    add_room(writer, {room_width, room_height, 6}, {10, 5, 10});
+    writer.group("lamp");
+    add_ceiling_lamp(writer, Placement(between(rng, 1, 5), room_height, between(rng, 3.6, 5.2)),
+                     between(rng, .4, 1.2), between(rng, .3, .9), 4, 3);
+    hidden == Hidden::crowd ? add_crowd(writer, rng) : add_corner(writer, rng);
+    add_obstacle(writer, obstacle, rng);
+    writer.group("chair");
+    add_chair(writer, Placement(between(rng, 1, 5), 0, between(rng, 3.7, 5)).facing(1, .3));
     return writer;
 }
 

@@ -9,6 +9,7 @@
 #include "geometry/box.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace hemilux {
@@ -32,6 +33,16 @@ class Bvh final : public Tracer {
         std::array<std::array<float, 2>, 3> low, high; ///< [axis][child]
         std::array<Child, 2> child;
     };
+
+    /// Returns the inner nodes; those that a node refers to come after it.
+    [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
+    [[nodiscard]] Child root() const { return root_; }
+    /// Returns the box of all facets.
+    [[nodiscard]] const Box& bounds() const { return bounds_; }
+    /// Returns the facets of a leaf.
+    [[nodiscard]] std::span<const std::uint32_t> facets_of(const Child& leaf) const {
+        return std::span(order_).subspan(leaf.first, leaf.count);
+    }
 
   private:
     /// Runs the one traversal loop. Calls leaf(slot) for each slot of order_ whose box the ray

@@ -4,6 +4,7 @@
 #include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 
+#include <algorithm>
 #include <limits>
 
 using namespace hemilux;
@@ -150,4 +151,34 @@ TEST_CASE("Sides, the starting facet and the target") {
     ray.t_max = 2;
     ray.from = 0;
     CHECK_FALSE(bvh.closest(ray));
+}
+
+TEST_CASE("Each box of the tree holds the facets below it, and each facet is in one leaf") {
+    const Soup soup = random_soup(500, 7);
+    const Bvh bvh(soup.view());
+    std::vector<int> leaves(soup.facets.size());
+    const auto check_child = [&](const Bvh::Child& child, const Box& box, std::size_t parent,
+                                 const auto& check_below) -> void {
+        if (child.count != none) {
+            for (const std::uint32_t facet : bvh.facets_of(child)) {
+                ++leaves[facet];
+                for (const std::uint32_t v : soup.facets[facet]) {
+                    CHECK(glm::all(glm::greaterThanEqual(soup.vertices[v], box.low)));
+                    CHECK(glm::all(glm::lessThanEqual(soup.vertices[v], box.high)));
+                }
+            }
+            return;
+        }
+        CHECK((parent == none || child.first > parent));
+        const Bvh::Node& node = bvh.nodes()[child.first];
+        for (std::size_t c = 0; c < 2; ++c) {
+            Box smaller;
+            smaller.low = {node.low[0][c], node.low[1][c], node.low[2][c]};
+            smaller.high = {node.high[0][c], node.high[1][c], node.high[2][c]};
+            check_below(node.child[c], smaller, child.first, check_below);
+        }
+    };
+    check_child(bvh.root(), bvh.bounds(), none, check_child);
+    CHECK(std::ranges::count(leaves, 1) == std::ssize(leaves));
+    CHECK(bvh.nodes().size() < soup.facets.size());
 }

@@ -43,8 +43,9 @@ TEST_CASE("runnable commands are told from other blocks") {
 TEST_CASE("the commands of README.md, the reading guide and the pages for users work", "[slow]") {
     const std::string root = HEMILUX_SOURCE_DIR;
     const std::string programs = std::filesystem::path(HEMILUX_PROGRAM).parent_path().string();
-    for (const char* name : {"/README.md", "/docs/paper/reading-guide.md", "/docs/use/tutorial.md",
-                             "/docs/use/how-to.md", "/docs/use/exchange.md"}) {
+    for (const char* name :
+         {"/README.md", "/docs/paper/reading-guide.md", "/docs/paper/core.md",
+          "/docs/use/tutorial.md", "/docs/use/how-to.md", "/docs/use/exchange.md"}) {
         std::ifstream page(root + name);
         const std::vector<std::string> commands = runnable_commands(page);
         CAPTURE(name);
