@@ -14,13 +14,10 @@
 #
 # Ends with 77 where the first is not possible.
 set -eu
-storey=paper target=all tests=. cxx20='' unity=OFF strict=ON
+storey=paper target=all tests=. unity=OFF strict=ON
 case ${1-} in
 '' | --here) ;;
---bytes)
-    storey=engine target=example_12_same_bytes tests=same_bytes unity=ON
-    cxx20="-isystem $(cd "$(dirname "$0")/.." && pwd)/lesson/module/cxx20" # what libc++ 14 lacks
-    ;;
+--bytes) storey=engine target=example_12_same_bytes tests=same_bytes unity=ON ;;
 *) sed -n '2,15s/^# \{0,1\}//p' "$0" >&2; exit 1 ;;
 esac
 cd "$(dirname "$0")/.."
@@ -60,8 +57,9 @@ if [ $# -gt 0 ]; then
     fi
     if command -v clang++ >/dev/null && command -v ninja >/dev/null; then
         build clang-ninja -G Ninja -DCMAKE_CXX_COMPILER=clang++
-        if echo '#include <version>' | clang++ -stdlib=libc++ -x c++ -fsyntax-only - 2>/dev/null; then
-            build libc++ -G Ninja -DCMAKE_CXX_COMPILER=clang++ "-DCMAKE_CXX_FLAGS=-stdlib=libc++ $cxx20"
+        # The engine needs more of C++20 than libc++ 14 has.
+        if [ $storey = paper ] && echo '#include <version>' | clang++ -stdlib=libc++ -x c++ -fsyntax-only - 2>/dev/null; then
+            build libc++ -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS=-stdlib=libc++
         fi
     fi
     if command -v aarch64-linux-gnu-g++ >/dev/null && command -v qemu-aarch64 >/dev/null; then
@@ -81,7 +79,8 @@ if [ $# -gt 0 ]; then
         export NODE_OPTIONS=--no-experimental-fetch
         flags=-fexceptions
         # The engine as in the lesson (lesson/CMakeLists.txt). A size has 32 bits here.
-        [ $storey = paper ] || flags="-msimd128 -fwasm-exceptions $cxx20" strict=OFF
+        [ $storey = paper ] ||
+            flags="-msimd128 -fwasm-exceptions -isystem $PWD/lesson/module/cxx20" strict=OFF
         build emscripten "-DCMAKE_TOOLCHAIN_FILE=$(em-config EMSCRIPTEN_ROOT)/cmake/Modules/Platform/Emscripten.cmake" \
             "-DCMAKE_CXX_FLAGS=$flags" -DCMAKE_CXX_EXTENSIONS=OFF -DHEMILUX_X86_KERNELS=OFF -Dglm_DIR="$work$glm" \
             -DHEMILUX_WARNINGS_AS_ERRORS=$strict \

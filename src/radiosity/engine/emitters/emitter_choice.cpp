@@ -1,6 +1,6 @@
 #include "radiosity/engine/emitters/emitter_choice.h"
 
-#include "geometry/median.h"
+#include "bvh/median.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/scene/mesh.h"
 

@@ -1,6 +1,6 @@
 #include "radiosity/research/guiding/patch_boxes.h"
 
-#include "geometry/median.h"
+#include "bvh/median.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
