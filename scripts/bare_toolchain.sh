@@ -7,7 +7,7 @@
 #   scripts/bare_toolchain.sh --here    on this system, by each compiler that is found: g++ with Make,
 #                                       clang++ with Ninja and with libc++, the cross compiler for aarch64
 #                                       (run by qemu-user), and em++ (run by node); all find the same bytes
-#   scripts/bare_toolchain.sh --bytes   the same with the engine, for examples/12_same_bytes alone: all methods
+#   scripts/bare_toolchain.sh --bytes   the same with the engine, for examples/13_same_bytes alone: all methods
 #                                       have the bytes of the table beside it by each compiler, and here by
 #                                       the kernels of each instruction set and the C library without FMA;
 #                                       aarch64 takes 20 minutes
@@ -17,7 +17,7 @@ set -eu
 storey=paper target=all tests=. unity=OFF strict=ON
 case ${1-} in
 '' | --here) ;;
---bytes) storey=engine target=example_12_same_bytes tests=same_bytes unity=ON ;;
+--bytes) storey=engine target=example_13_same_bytes tests=same_bytes unity=ON ;;
 *) sed -n '2,15s/^# \{0,1\}//p' "$0" >&2; exit 1 ;;
 esac
 cd "$(dirname "$0")/.."
@@ -50,10 +50,10 @@ if [ $# -gt 0 ]; then
     build make -G "Unix Makefiles" -DCMAKE_CXX_COMPILER=g++
     if [ $storey = engine ]; then
         for kernels in baseline avx2 avx512; do
-            HEMILUX_KERNELS=$kernels "$work/make/examples/12_same_bytes" examples/12_same_bytes.txt
+            HEMILUX_KERNELS=$kernels "$work/make/examples/13_same_bytes" examples/13_same_bytes.txt
         done
         GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2_Usable,-FMA_Usable,-AVX2,-FMA \
-            "$work/make/examples/12_same_bytes" examples/12_same_bytes.txt
+            "$work/make/examples/13_same_bytes" examples/13_same_bytes.txt
     fi
     if command -v clang++ >/dev/null && command -v ninja >/dev/null; then
         build clang-ninja -G Ninja -DCMAKE_CXX_COMPILER=clang++

@@ -1,11 +1,11 @@
 // Shows that results have the same bytes on every machine: by each compiler, each instruction set
 // and each C library.
 //
-//   examples/12_same_bytes [TABLE]
+//   examples/13_same_bytes [TABLE]
 //
 // It prints a row for each method and its page on three scenes, and on two of them for each of its
 // options: a hash of all bits of the radiosity and of its standard errors. Given a table of such
-// rows (12_same_bytes.txt), it prints those that the table does not have. It ends with 1 if there
+// rows (13_same_bytes.txt), it prints those that the table does not have. It ends with 1 if there
 // are any.
 #include "bvh/wide/wide_bvh.h"
 #include "parallel/workers.h"
