@@ -133,6 +133,6 @@ TEST_CASE("the error of gathered light is found as exactly as it is asked for") 
         CHECK(test::statistic(json, "error_bound") <= .05);
         return test::statistic(json, "estimated_error_uncertainty") / error;
     };
-    CHECK(relative_uncertainty(" --error-accuracy 10%") < .15);
-    CHECK(relative_uncertainty("") > .15);
+    CHECK(relative_uncertainty(" --error-accuracy 5%") < .075);
+    CHECK(relative_uncertainty("") > .075);
 }
