@@ -131,7 +131,9 @@ void Gathering::gather_until_right(const std::string& what, const ReadError& rea
     constexpr std::uint64_t usual_pixels = 512, max_more = 64;
     constexpr double helps = .75;
     Errors errors{read};
+    std::uint64_t judged = 1; // by so many times the usual pixels
     const auto judge_by = [&](std::uint64_t more) {
+        judged = more;
         const Stopwatch watch;
         const PictureError own = judge(usual_pixels * more, hash_words({seed, more - 1}));
         statistics_.rays_learn += own.rays;
@@ -158,7 +160,7 @@ void Gathering::gather_until_right(const std::string& what, const ReadError& rea
         before = errors.noise;
     }
     const double accuracy = settings_.error_accuracy;
-    for (std::uint64_t more = 4;
+    for (std::uint64_t more = 4 * judged;
          accuracy > 0 && more <= max_more && !monitor_.interrupted &&
          errors.noise * errors.noise_uncertainty > accuracy * errors.whole() * errors.whole();
          more *= 4)

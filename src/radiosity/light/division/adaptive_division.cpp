@@ -10,6 +10,7 @@
 #include "radiosity/light/light_error/division_error.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solution/missed_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -211,7 +212,7 @@ void Division::measure(const Solution& light, double goal) {
 /// hold, and is so large that what none of it shows is surely less (the rule of three).
 bool Division::are_even(const Solution& light, std::span<const std::uint32_t> patches,
                         std::span<const double> held, double allowed) {
-    constexpr double rule_of_three = 3, min_gain = 4, sigmas = 2;
+    constexpr double min_gain = 4, sigmas = 2;
     const double all = std::reduce(held.begin(), held.end()), size = rule_of_three * all / allowed;
     if (!(min_gain * size < double(patches.size())))
         return false;
