@@ -21,6 +21,57 @@ float weight_at(int step) {
     return window[static_cast<std::size_t>(std::ptrdiff_t{step} + half_window)];
 }
 
+/// The share of the direct light that arrives in the pixels of a window: how far it varies beyond
+/// the noise of their shadow rays, and otherwise than linearly.
+class ShareAround {
+  public:
+    /// `rays` are the shadow rays of a pixel.
+    explicit ShareAround(unsigned rays) : rays_(rays) {}
+
+    void add(int dx, int dy, const glm::vec3& arriving, const glm::vec3& unshadowed, float weight) {
+        const float all = unshadowed.x + unshadowed.y + unshadowed.z;
+        if (!(all > 0))
+            return;
+        const float share = (arriving.x + arriving.y + arriving.z) / all;
+        const glm::vec2 step(dx, dy);
+        n_ += weight;
+        mean_ += weight * share;
+        squares_ += weight * share * share;
+        at_ += weight * step;
+        steps_ += weight * step * step;
+        across_ += weight * step.x * step.y;
+        slope_ += weight * share * step;
+    }
+
+    /// Returns the weight of a pixel's own share beside the mean of the window, by the variance of
+    /// both (Lee 1980): 1 at a sharp edge, where all rays of most pixels agree; 0 where the share
+    /// changes slowly.
+    [[nodiscard]] float share_of_own() const {
+        if (!(n_ > 0) || rays_ < 2)
+            return 0;
+        const float mean = mean_ / n_, variance = squares_ / n_ - mean * mean;
+        if (!(variance > 0))
+            return 0;
+        const float noise = std::max(mean - squares_ / n_, 0.0f) / float(rays_ - 1);
+        const glm::vec2 at = at_ / n_, steps = steps_ / n_ - at * at,
+                        slope = slope_ / n_ - mean * at;
+        const float across = across_ / n_ - at.x * at.y,
+                    determinant = steps.x * steps.y - across * across;
+        float linear = 0; // the part of the variance of a linear function
+        if (determinant > 0)
+            linear = (slope.x * slope.x * steps.y + slope.y * slope.y * steps.x -
+                      2 * slope.x * slope.y * across) /
+                     determinant;
+        const float signal = variance - linear - noise;
+        return signal > 0 ? signal / (signal + noise) : 0;
+    }
+
+  private:
+    unsigned rays_;
+    float n_ = 0, mean_ = 0, squares_ = 0, across_ = 0;
+    glm::vec2 at_{0.0f}, steps_{0.0f}, slope_{0.0f};
+};
+
 class GatheredPicture {
   public:
     GatheredPicture(const Mesh& mesh, const VisibleFacets& visible, const PictureGather& gather,
@@ -122,32 +173,39 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first, in
 glm::vec3 GatheredPicture::direct_light(const Part& part, int y) const {
     const Vec3& normal = mesh_.patches()[part.patch].normal;
     glm::vec3 arriving(0.0f), unshadowed(0.0f);
-    const auto add = [&](const Part& from, float weight) {
+    ShareAround around(gather_.shadow_rays());
+    const auto add = [&](const Part& from, int dx, int dy) {
         if (from.share == 0 || (from.patch != part.patch &&
                                 !is_same_surface(Vec3(part.position), normal, Vec3(from.position),
                                                  mesh_.patches()[from.patch].normal)))
             return;
-        weight *= from.share;
+        const float weight = weight_at(dx) * weight_at(dy) * from.share;
         arriving += weight * from.direct;
         unshadowed += weight * from.unshadowed;
+        around.add(dx, dy, from.direct, from.unshadowed, weight);
     };
     const int left = std::max(part.x - half_window, 0),
               right = std::min(part.x + half_window, image_.width - 1);
     for (int row = std::max(y - half_window, 0);
          row <= std::min(y + half_window, image_.height - 1); ++row) {
         for (int x = left; x <= right; ++x)
-            add(whole_[image_.index(x, row)], weight_at(x - part.x) * weight_at(row - y));
+            add(whole_[image_.index(x, row)], x - part.x, row - y);
         if (part.share == 1)
             continue;
         const std::vector<Part>& parts = parts_[static_cast<std::size_t>(row)];
         for (auto there = std::ranges::lower_bound(parts, left, {}, &Part::x);
              there != parts.end() && there->x <= right; ++there)
-            add(*there, weight_at(there->x - part.x) * weight_at(row - y));
+            add(*there, there->x - part.x, row - y);
     }
+    const float own = part.share == 1 ? around.share_of_own() : 0;
     glm::vec3 light(0.0f);
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < 3; ++c) {
         if (unshadowed[c] > 0)
             light[c] = part.smooth_unshadowed[c] * (arriving[c] / unshadowed[c]);
+        if (own > 0 && part.unshadowed[c] > 0)
+            light[c] += own * (part.smooth_unshadowed[c] * (part.direct[c] / part.unshadowed[c]) -
+                               light[c]);
+    }
     return light;
 }
 

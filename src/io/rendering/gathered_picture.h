@@ -4,7 +4,8 @@
 // At the edge of a shadow, each pixel first traces a few shadow rays, which differ from pixel to
 // pixel. They say which share of the direct light arrives. Then a pixel takes the share of the four
 // by four pixels of its surface around it. Each such square has one well distributed set of shadow
-// rays.
+// rays. Where the share changes more abruptly than the noise of these rays explains, as at the edge
+// of a sharp shadow, a pixel keeps its own share as far as that is likely to be nearer (Lee 1980).
 
 #include "io/pictures/image.h"
 #include "io/rendering/picture_gather.h"

@@ -16,14 +16,11 @@ namespace {
 /// slowly.
 constexpr double of_emitters = 2;
 
-/// Points that average over fewer steps than these get more rays, or many.
-constexpr double steps_for_more = 7, steps_for_many = 3.5;
-
 /// With fewer steps than these the light changes from point to point.
 constexpr double coarse_steps = 1.5;
 
-/// Relative errors of means from which points get more rays, or many.
-constexpr double noise_for_more = .05, noise_for_many = .1;
+/// Errors of means, relative to all light, from which points get more rays, or many.
+constexpr double noise_for_more = .04, noise_for_many = .08;
 
 /// Rays are aimed at bright patches from points where these have this share of the squares of the
 /// light that random rays read. Such squares are the variance but for the mean.
@@ -120,6 +117,7 @@ void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& 
                 point.squares += Vec2(lights[i].squares, lights[i].bright_squares);
                 if (shadows == Shadows::left_out)
                     continue;
+                point.light = mean_of_channels(lights[i].irradiance + direct[i].arriving);
                 if (direct[i].arriving != Vec3(0.0))
                     point.shadow |= none_blocked;
                 if (mean_of_channels(direct[i].arriving) <
@@ -133,10 +131,9 @@ void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& 
 /// over. They also help where few rays find most of the light, as that of a sky through a window.
 unsigned PictureGather::more_rays(int x, int y) const {
     const GridPoint& here = *grid_.point(x, y);
-    const double width = grid_.spacing(x, y), reach = reach_of(here.nearness);
-    if (reach < steps_for_many * width || width == 0 || here.noise > noise_for_many)
+    if (grid_.spacing(x, y) == 0 || here.noise > noise_for_many)
         return 4 * options_.rays;
-    return reach < steps_for_more * width || here.noise > noise_for_more ? options_.rays : 0;
+    return here.noise > noise_for_more ? options_.rays : 0;
 }
 
 void PictureGather::judge_points(const Workers& workers) {
@@ -156,9 +153,7 @@ void PictureGather::judge_points(const Workers& workers) {
 std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Place> places) const {
     SomePoints alone, in_penumbra;
     std::vector<Light> found(places.size());
-    const unsigned share = options_.gathers_coarse ? 1 : 2,
-                   each = std::max(1u, options_.rays / (share * options_.samples)),
-                   of_pixel = each * options_.samples;
+    const unsigned each = of_sample(), of_pixel = shadow_rays();
     for (std::size_t k = 0; k < places.size(); ++k) {
         const Place& place = places[k];
         const int x = static_cast<int>(place.pixel.x), y = static_cast<int>(place.pixel.y);

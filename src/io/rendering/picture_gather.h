@@ -16,6 +16,7 @@
 #include "io/rendering/slow_light.h"
 #include "radiosity/light/final_gather/gather_in_parts.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -61,12 +62,17 @@ class PictureGather {
     };
     /// Returns the light at each place. Several threads may call it.
     [[nodiscard]] std::vector<Light> irradiance(std::span<const Place> places) const;
+    /// Returns the number of shadow rays of a pixel at the edge of a shadow.
+    [[nodiscard]] unsigned shadow_rays() const { return of_sample() * options_.samples; }
 
   private:
     [[nodiscard]] static GatherSamples samples_of(int x, int y, unsigned count);
     template <class Rays>
     void gather(const Rays& rays_at, Shadows shadows, const Workers& workers);
     [[nodiscard]] unsigned more_rays(int x, int y) const;
+    [[nodiscard]] unsigned of_sample() const {
+        return std::max(1u, options_.rays / ((options_.gathers_coarse ? 1 : 2) * options_.samples));
+    }
     void judge_points(const Workers& workers);
 
     PictureGatherOptions options_;

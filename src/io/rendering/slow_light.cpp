@@ -70,14 +70,37 @@ struct Fit {
 double reach_of(double nearness) { return reach_share / nearness; }
 
 double SlowLightField::noise_around(const GridPoint& here, int x, int y) const {
-    double n = 0, sum = 0, squares = 0;
-    grid_.for_each_around(here, x, y, reach_points, [&](const GridPoint& there) {
-        const double light = mean_of_channels(light_[grid_.number_of(there)].indirect);
-        ++n;
-        sum += light;
-        squares += light * light;
-    });
-    return sum > 0 ? std::sqrt(std::max(n * squares - sum * sum, 0.0) / n) / sum : 0;
+    const double most = 1 / (min_steps * grid_.spacing(x, y));
+    double n = 0, sum = 0, squares = 0, all = 0, weights = 0, squared_weights = 0;
+    Vec2 at(0.0), around(0.0); // mean offset and its square
+    for (int dy = -reach_points; dy <= reach_points; ++dy)
+        for (int dx = -reach_points; dx <= reach_points; ++dx) {
+            const GridPoint* const there = grid_.point(x + dx, y + dy);
+            if (!there || !here.is_of_surface(*there))
+                continue;
+            const double light = mean_of_channels(light_[grid_.number_of(*there)].indirect);
+            ++n;
+            sum += light;
+            squares += light * light;
+            all += there->light;
+            const double weight = there == &here ? 1 : std::max(weight_of(here, there, most), 0.0);
+            weights += weight;
+            squared_weights += weight * weight;
+            const Vec2 offset(dx, dy);
+            at += weight * offset;
+            around += weight * offset * offset;
+        }
+    if (!(all > 0))
+        return 0;
+    at /= weights;
+    around = around / weights - at * at;
+    // At the edge of a surface the slope is read as well, far from the middle of what it is by.
+    double beside = 1;
+    for (int axis = 0; axis < 2; ++axis)
+        if (around[axis] > 0)
+            beside += at[axis] * at[axis] / around[axis];
+    const double variance = std::max(squares / n - sum * sum / (n * n), 0.0);
+    return std::sqrt(variance * squared_weights * beside) / weights / (all / n);
 }
 
 void SlowLightField::fit(int stride, const std::function<void()>& check, const Workers& workers) {

@@ -162,6 +162,24 @@ TEST_CASE("the shadow of a thin thing is found") {
     CHECK(darkest == Approx(.6).margin(.12));
 }
 
+TEST_CASE("a sharp shadow two pixels wide is dark, and what is beside it is lit") {
+    // A post without thickness, two pixels wide: beside it the penumbra is far below a pixel.
+    constexpr double half = 2.0 / height;
+    Scene scene = lamp_over_ground();
+    test::add_quad(scene, {0, 0, -half}, {0, .5, -half}, {0, .5, half}, {0, 0, half}, 1, 1, 2);
+    test::add_quad(scene, {0, 0, half}, {0, .5, half}, {0, .5, -half}, {0, 0, -half}, 1, 1, 2);
+    scene.faces += 2;
+    const Image shaded = picture_of(Model(std::move(scene)), from_above),
+                lit = picture_of(Model(lamp_over_ground()), from_above);
+    for (int x = width / 2 - 2; x < width / 2; ++x)
+        for (int y = height / 2 - 3; y < height / 2 + 3; ++y) {
+            const bool dark = y == height / 2 - 1 || y == height / 2;
+            const float share = shaded.at(x, y).x / lit.at(x, y).x;
+            CAPTURE(x, y, share);
+            CHECK((dark ? share < .1f : share > .85f));
+        }
+}
+
 TEST_CASE("a strip narrower than a pixel is not dotted where a lamp is half hidden") {
     Scene scene;
     scene.materials = {{"strip", Vec3(.5), Vec3(0)},
