@@ -41,7 +41,7 @@ constexpr double bytes_of_analysis = 350;
 constexpr double bytes_per_pixel = 26, bytes_per_compared_pixel = 56;
 /// The bytes for the light of a pixel in its parts and of more surfaces at edges, and for a quarter
 /// of a point at which indirect light is gathered.
-constexpr double bytes_per_gathered_pixel = 154;
+constexpr double bytes_per_gathered_pixel = 118;
 /// The bytes per pixel of the layers of an .exr file, and of the file.
 constexpr double bytes_per_layered_pixel = 60;
 

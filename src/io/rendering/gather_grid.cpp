@@ -66,12 +66,12 @@ double GatherGrid::spacing(int x, int y) const {
 
 void GatherGrid::ask_neighbours(const Workers& workers) {
     struct Asked {
-        double nearness = 0;
+        float nearness = 0;
         std::uint8_t shadow = 0;
     };
     std::vector<Asked> asked(points_.size());
     for_each_point(workers, [&](const GridPoint& here, int x, int y) {
-        double sum = 0, count = 0;
+        float sum = 0, count = 0;
         Asked& of = asked[number_of(here)];
         for_each_around(here, x, y, 1, [&](const GridPoint& there) {
             sum += there.nearness;

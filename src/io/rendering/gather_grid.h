@@ -23,9 +23,9 @@ enum Shadow : std::uint8_t { none_blocked = 1, all_blocked = 2 };
 
 struct GridPoint {
     SurfacePoint at;         ///< facet none: no surface is visible there
-    double nearness = 0;     ///< mean inverse distance of hits, or of emitters [1/local unit]
-    double noise = 0;        ///< error of the mean of the points around, relative to all light
-    double light = 0;        ///< all that arrives, by the first rays [W/m2]
+    float nearness = 0;      ///< mean inverse distance of hits, or of emitters [1/local unit]
+    float noise = 0;         ///< error of the mean of the points around, relative to all light
+    float light = 0;         ///< all that arrives, by the first rays [W/m2]
     unsigned rays = 0;       ///< number of rays that gathered the light
     Vec2 squares{0.0};       ///< of the light that the rays read, and of that of bright patches
     bool aims = false;       ///< further rays are partly aimed at bright patches

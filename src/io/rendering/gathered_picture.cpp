@@ -86,23 +86,24 @@ class GatheredPicture {
     struct Part {
         glm::vec3 position{0.0f};                 ///< local frame
         glm::vec3 direct{0.0f}, unshadowed{0.0f}; ///< by its own shadow rays
-        glm::vec3 smooth_unshadowed{0.0f}, indirect{0.0f};
-        glm::vec3 reflectance{0.0f}, emission{0.0f};
+        glm::vec3 reflected{0.0f};                ///< of direct light if nothing stood between
         std::uint32_t patch = none;
         float share = 0; ///< of the pixel
-        int x = 0;
+    };
+    struct NarrowPart {
+        int x;
+        Part part;
     };
     void gather_band(const VisibleFacets::Band& band, int first, int end);
-    [[nodiscard]] glm::vec3 direct_light(const Part& part, int y) const;
-    [[nodiscard]] glm::vec3 radiosity(const Part& part, int y) const;
+    [[nodiscard]] glm::vec3 direct_light(const Part& part, int x, int y) const;
 
     const Mesh& mesh_;
     const VisibleFacets& visible_;
     const PictureGather& gather_;
     std::span<const Vec2> offsets_;
-    Image image_;
-    std::vector<Part> whole_;              ///< by pixel; share 0 where it shows nothing or several
-    std::vector<std::vector<Part>> parts_; ///< by row, from left to right
+    Image image_;             ///< all but direct light at first
+    std::vector<Part> whole_; ///< by pixel; share 0 where it shows nothing or several
+    std::vector<std::vector<NarrowPart>> parts_; ///< by row, from left to right
 };
 
 Image GatheredPicture::render(const std::function<void()>& check, const Workers& workers) {
@@ -115,9 +116,9 @@ Image GatheredPicture::render(const std::function<void()>& check, const Workers&
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
             for (int x = 0; x < image_.width; ++x)
                 if (const Part& whole = whole_[image_.index(x, y)]; whole.share > 0)
-                    image_.at(x, y) = radiosity(whole, y);
-            for (const Part& part : parts_[static_cast<std::size_t>(y)])
-                image_.at(part.x, y) += part.share * radiosity(part, y);
+                    image_.at(x, y) += direct_light(whole, x, y);
+            for (const auto& [x, part] : parts_[static_cast<std::size_t>(y)])
+                image_.at(x, y) += part.share * direct_light(part, x, y);
         }
     });
     return std::move(image_);
@@ -126,8 +127,12 @@ Image GatheredPicture::render(const std::function<void()>& check, const Workers&
 /// Pixels are visited square by square: those near each other share what they have in common.
 void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first, int end) {
     constexpr int side = 4;
-    std::vector<Part> parts;
-    std::vector<int> rows;
+    struct Shown {
+        int x, y;
+        std::uint32_t patch;
+        Colours colours;
+    };
+    std::vector<Shown> shown;
     std::vector<PictureGather::Place> places;
     const auto visit = [&](int x, int y) {
         visible_.visit_pixel(
@@ -137,15 +142,7 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first, in
                 const Hit hit = visible_.hit_at(half, direction);
                 const std::uint32_t patch = mesh_.patch_at(hit);
                 const Vec3 position = visible_.eye() + hit.t * direction;
-                const auto [reflectance, emission] =
-                    pixel_colours(mesh_, visible_, half, patch, place);
-                parts.push_back({.position = glm::vec3(position),
-                                 .reflectance = glm::vec3(reflectance),
-                                 .emission = glm::vec3(emission),
-                                 .patch = patch,
-                                 .share = float(count) / float(offsets_.size()),
-                                 .x = x});
-                rows.push_back(y);
+                shown.push_back({x, y, patch, pixel_colours(mesh_, visible_, half, patch, place)});
                 places.push_back(
                     {{position, mesh_.patches()[patch].normal, hit.facet}, place, sample, count});
             });
@@ -156,21 +153,27 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first, in
                 for (int x = left; x < std::min(left + side, image_.width); ++x)
                     visit(x, y);
     const std::vector<PictureGather::Light> lights = gather_.irradiance(places);
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        parts[k].direct = glm::vec3(lights[k].direct.arriving);
-        parts[k].unshadowed = glm::vec3(lights[k].direct.unshadowed);
-        parts[k].smooth_unshadowed = glm::vec3(lights[k].slow.unshadowed);
-        parts[k].indirect = glm::vec3(lights[k].slow.indirect);
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+        const auto& [x, y, patch, colours] = shown[k];
+        const auto& [direct, slow] = lights[k];
+        const glm::vec3 reflectance(colours.reflectance);
+        const Part part{.position = glm::vec3(places[k].at.position),
+                        .direct = glm::vec3(direct.arriving),
+                        .unshadowed = glm::vec3(direct.unshadowed),
+                        .reflected = reflectance * slow.unshadowed,
+                        .patch = patch,
+                        .share = float(places[k].count) / float(offsets_.size())};
+        image_.at(x, y) += part.share * (glm::vec3(colours.emission) + reflectance * slow.indirect);
         if (places[k].count == offsets_.size())
-            whole_[image_.index(parts[k].x, rows[k])] = parts[k];
+            whole_[image_.index(x, y)] = part;
         else
-            parts_[static_cast<std::size_t>(rows[k])].push_back(parts[k]);
+            parts_[static_cast<std::size_t>(y)].push_back({x, part});
     }
 }
 
-/// Parts of other pixels count only for a part of a pixel: a strip narrower than a pixel shows
-/// nothing else.
-glm::vec3 GatheredPicture::direct_light(const Part& part, int y) const {
+/// Returns the direct light that a part of pixel (x, y) reflects. Parts of other pixels count only
+/// for a part of a pixel: a strip narrower than a pixel shows nothing else.
+glm::vec3 GatheredPicture::direct_light(const Part& part, int x, int y) const {
     const Vec3& normal = mesh_.patches()[part.patch].normal;
     glm::vec3 arriving(0.0f), unshadowed(0.0f);
     ShareAround around(gather_.shadow_rays());
@@ -184,33 +187,29 @@ glm::vec3 GatheredPicture::direct_light(const Part& part, int y) const {
         unshadowed += weight * from.unshadowed;
         around.add(dx, dy, from.direct, from.unshadowed, weight);
     };
-    const int left = std::max(part.x - half_window, 0),
-              right = std::min(part.x + half_window, image_.width - 1);
+    const int left = std::max(x - half_window, 0),
+              right = std::min(x + half_window, image_.width - 1);
     for (int row = std::max(y - half_window, 0);
          row <= std::min(y + half_window, image_.height - 1); ++row) {
-        for (int x = left; x <= right; ++x)
-            add(whole_[image_.index(x, row)], x - part.x, row - y);
+        for (int column = left; column <= right; ++column)
+            add(whole_[image_.index(column, row)], column - x, row - y);
         if (part.share == 1)
             continue;
-        const std::vector<Part>& parts = parts_[static_cast<std::size_t>(row)];
-        for (auto there = std::ranges::lower_bound(parts, left, {}, &Part::x);
+        const std::vector<NarrowPart>& parts = parts_[static_cast<std::size_t>(row)];
+        for (auto there = std::ranges::lower_bound(parts, left, {}, &NarrowPart::x);
              there != parts.end() && there->x <= right; ++there)
-            add(*there, there->x - part.x, row - y);
+            add(there->part, there->x - x, row - y);
     }
     const float own = part.share == 1 ? around.share_of_own() : 0;
     glm::vec3 light(0.0f);
     for (int c = 0; c < 3; ++c) {
         if (unshadowed[c] > 0)
-            light[c] = part.smooth_unshadowed[c] * (arriving[c] / unshadowed[c]);
+            light[c] = part.reflected[c] * (arriving[c] / unshadowed[c]);
         if (own > 0 && part.unshadowed[c] > 0)
-            light[c] += own * (part.smooth_unshadowed[c] * (part.direct[c] / part.unshadowed[c]) -
-                               light[c]);
+            light[c] +=
+                own * (part.reflected[c] * (part.direct[c] / part.unshadowed[c]) - light[c]);
     }
     return light;
-}
-
-glm::vec3 GatheredPicture::radiosity(const Part& part, int y) const {
-    return part.emission + part.reflectance * (direct_light(part, y) + part.indirect);
 }
 
 } // namespace

@@ -108,16 +108,18 @@ void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& 
                 point.rays += some.samples[i].count;
                 const double share = double(some.samples[i].count) / point.rays;
                 SlowLight& light = light_.at(some.which[i]);
-                light.indirect = point.aims ? lights[i].irradiance
-                                            : glm::mix(light.indirect, lights[i].irradiance, share);
-                light.unshadowed = glm::mix(light.unshadowed, direct[i].unshadowed, share);
-                point.nearness =
-                    glm::mix(point.nearness,
-                             std::max(lights[i].nearness, of_emitters * direct[i].nearness), share);
+                const glm::vec3 indirect(lights[i].irradiance);
+                light.indirect =
+                    point.aims ? indirect : glm::mix(light.indirect, indirect, float(share));
+                light.unshadowed =
+                    glm::mix(light.unshadowed, glm::vec3(direct[i].unshadowed), float(share));
+                point.nearness = float(glm::mix(
+                    double(point.nearness),
+                    std::max(lights[i].nearness, of_emitters * direct[i].nearness), share));
                 point.squares += Vec2(lights[i].squares, lights[i].bright_squares);
                 if (shadows == Shadows::left_out)
                     continue;
-                point.light = mean_of_channels(lights[i].irradiance + direct[i].arriving);
+                point.light = float(mean_of_channels(lights[i].irradiance + direct[i].arriving));
                 if (direct[i].arriving != Vec3(0.0))
                     point.shadow |= none_blocked;
                 if (mean_of_channels(direct[i].arriving) <
@@ -139,7 +141,7 @@ unsigned PictureGather::more_rays(int x, int y) const {
 void PictureGather::judge_points(const Workers& workers) {
     grid_.for_each_point(workers, [&](const GridPoint& here, int x, int y) {
         GridPoint& judged = grid_[grid_.number_of(here)];
-        judged.noise = light_.noise_around(here, x, y);
+        judged.noise = float(light_.noise_around(here, x, y));
         judged.is_coarse = reach_of(here.nearness) < coarse_steps * grid_.spacing(x, y);
         Vec2 squares(0.0);
         grid_.for_each_around(here, x, y, reach_points,
@@ -167,8 +169,8 @@ std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Plac
         else
             alone.add(k, place.at, samples_of(x, y, 4 * options_.rays));
         if (around && (around->shadow == none_blocked || around->shadow == all_blocked)) {
-            direct.unshadowed = slow.unshadowed;
-            direct.arriving = around->shadow == none_blocked ? slow.unshadowed : Vec3(0.0);
+            direct.unshadowed = Vec3(slow.unshadowed);
+            direct.arriving = around->shadow == none_blocked ? direct.unshadowed : Vec3(0.0);
             continue;
         }
         GatherSamples samples = samples_of(x, y, of_pixel);
@@ -183,7 +185,7 @@ std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Plac
     const std::vector<IndirectLight> lights = in_parts_.indirect(alone.points, alone.samples);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         Light& light = found[alone.which[i]];
-        light.slow = {light.direct.unshadowed, lights[i].irradiance};
+        light.slow = {glm::vec3(light.direct.unshadowed), glm::vec3(lights[i].irradiance)};
     }
     return found;
 }

@@ -25,7 +25,8 @@ double weight_of(const GridPoint& here, const GridPoint* there, double most) {
     if (!there || !here.is_of_surface(*there))
         return 0;
     const Vec3 way = there->at.position - here.at.position;
-    const double share = std::min(std::max(here.nearness, there->nearness) / reach_share, most);
+    const double share =
+        std::min(double(std::max(here.nearness, there->nearness)) / reach_share, most);
     return 1 - share * share * glm::dot(way, way);
 }
 
@@ -41,27 +42,27 @@ struct Fit {
         mean += weight * offset;
         squares += weight * offset * offset;
         product += weight * offset.x * offset.y;
-        sum.add(light, weight);
-        by_x.add(light, weight * offset.x);
-        by_y.add(light, weight * offset.y);
+        sum.add(light, float(weight));
+        by_x.add(light, float(weight * offset.x));
+        by_y.add(light, float(weight * offset.y));
     }
     /// Turns the sums into the function: its slope, and its value at the point, in `sum`.
     void solve(std::array<SlowLight, 2>& slope) {
         mean /= n;
         squares -= n * mean * mean;
         product -= n * mean.x * mean.y;
-        by_x.add(sum, -mean.x);
-        by_y.add(sum, -mean.y);
+        by_x.add(sum, float(-mean.x));
+        by_y.add(sum, float(-mean.y));
         const double determinant = squares.x * squares.y - product * product;
         slope = {};
-        slope[0].add(by_x, squares.y / determinant);
-        slope[0].add(by_y, -product / determinant);
-        slope[1].add(by_y, squares.x / determinant);
-        slope[1].add(by_x, -product / determinant);
-        sum = {sum.unshadowed / n, sum.indirect / n};
-        sum.add(slope[0], -mean.x);
-        sum.add(slope[1], -mean.y);
-        sum = {glm::max(sum.unshadowed, 0.0), glm::max(sum.indirect, 0.0)};
+        slope[0].add(by_x, float(squares.y / determinant));
+        slope[0].add(by_y, float(-product / determinant));
+        slope[1].add(by_y, float(squares.x / determinant));
+        slope[1].add(by_x, float(-product / determinant));
+        sum = {sum.unshadowed / float(n), sum.indirect / float(n)};
+        sum.add(slope[0], float(-mean.x));
+        sum.add(slope[1], float(-mean.y));
+        sum = {glm::max(sum.unshadowed, 0.0f), glm::max(sum.indirect, 0.0f)};
     }
 };
 
@@ -78,11 +79,11 @@ double SlowLightField::noise_around(const GridPoint& here, int x, int y) const {
             const GridPoint* const there = grid_.point(x + dx, y + dy);
             if (!there || !here.is_of_surface(*there))
                 continue;
-            const double light = mean_of_channels(light_[grid_.number_of(*there)].indirect);
+            const double light = mean_of_channels(Vec3(light_[grid_.number_of(*there)].indirect));
             ++n;
             sum += light;
             squares += light * light;
-            all += there->light;
+            all += double(there->light);
             const double weight = there == &here ? 1 : std::max(weight_of(here, there, most), 0.0);
             weights += weight;
             squared_weights += weight * weight;
@@ -125,8 +126,8 @@ void SlowLightField::fit(int stride, const std::function<void()>& check, const W
             constexpr double enough = 10; // points that are wide apart know a slope better
             if (stride == 1 || fit.n > enough)
                 for (std::size_t k = 0; k < slope.size(); ++k)
-                    slope_[number][k] = {slope[k].unshadowed / double(stride),
-                                         slope[k].indirect / double(stride)};
+                    slope_[number][k] = {slope[k].unshadowed / float(stride),
+                                         slope[k].indirect / float(stride)};
         },
         check);
     light_ = std::move(fitted);
@@ -147,23 +148,23 @@ SlowLightField::interpolate(const SurfacePoint& at, const Vec2& pixel, std::uint
                 if (!there || !there->is_of_surface(at, part))
                     continue;
                 const Vec3 way = there->at.position - at.position;
-                const double share = there->nearness / reach_share;
+                const double share = double(there->nearness) / reach_share;
                 const double across = std::max(1 - std::abs(x - left - dx), 0.0),
                              down = std::max(1 - std::abs(y - top - dy), 0.0);
                 const double weight =
                     (least + across * down) / (1 + share * share * glm::dot(way, way));
                 const std::size_t of = grid_.number_of(*there);
-                sum.add(light_[of], weight);
-                sum.add(slope_[of][0], weight * (x - left - dx));
-                sum.add(slope_[of][1], weight * (y - top - dy));
+                sum.add(light_[of], float(weight));
+                sum.add(slope_[of][0], float(weight * (x - left - dx)));
+                sum.add(slope_[of][1], float(weight * (y - top - dy)));
                 weights += weight;
                 around.shadow |= there->shadow;
                 around.is_coarse = around.is_coarse || there->is_coarse;
             }
         if (!(weights > 0))
             continue;
-        sum.unshadowed = glm::max(sum.unshadowed / weights, 0.0);
-        sum.indirect = glm::max(sum.indirect / weights, 0.0);
+        sum.unshadowed = glm::max(sum.unshadowed / float(weights), 0.0f);
+        sum.indirect = glm::max(sum.indirect / float(weights), 0.0f);
         return around;
     }
     return {};

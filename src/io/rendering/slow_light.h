@@ -20,10 +20,10 @@ namespace hemilux {
 
 /// Irradiance that varies slowly [W/m2].
 struct SlowLight {
-    Vec3 unshadowed{0.0}; ///< straight from small emitters if nothing stood between
-    Vec3 indirect{0.0};
+    glm::vec3 unshadowed{0.0f}; ///< straight from small emitters if nothing stood between
+    glm::vec3 indirect{0.0f};
 
-    void add(const SlowLight& light, double weight) {
+    void add(const SlowLight& light, float weight) {
         unshadowed += weight * light.unshadowed;
         indirect += weight * light.indirect;
     }
