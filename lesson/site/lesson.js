@@ -155,7 +155,8 @@ const lesson = (() => {
     // Calls work() between pictures until it returns false.
     async repeat(work) {
       const turn = this.turn = {};
-      while (this.isOpen && this.turn === turn && work()) {
+      for (let isMore = true; isMore && this.isOpen && this.turn === turn;) {
+        isMore = work();
         this.views.forEach((view) => view.draw());
         await new Promise((resolve) => setTimeout(resolve, 0));
       }

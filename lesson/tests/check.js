@@ -210,6 +210,7 @@
       check("7. the sentence names a method with a useful picture", first && least(first) <= 0.05 && document.querySelector(".sentence").textContent.includes(first));
       check("7. stored transport has one after fewer rays than shooting", raysTo("stored-transport") < Math.min(...["hemisphere", "stratified", "monte-carlo", "progressive-monte-carlo"].map(raysTo)));
       const { bars, reference } = lesson.figure.values;
+      check("7. the chart has all curves", colours(document.querySelector("canvas.chart")) > 60);
       check("7. every point of three runs has an error bar", Object.values(bars).every((list) => list.length > 0 && list.every((bar) => bar > 0)));
       check(`7. the bars are standard errors of means: shorter than the errors (${figures.percent(bars["monte-carlo"][0])} of ${figures.percent(errors["monte-carlo"][0])})`,
         bars["monte-carlo"].every((bar, k) => bar < 0.5 * errors["monte-carlo"][k]));

@@ -67,7 +67,7 @@ one room may lose in the next.</p>`,
       const first = methods.filter(useful).sort((a, b) => useful(a)[0] - useful(b)[0])[0];
       chart.series = methods.map(({ name, points }) => ({ name, points: points.map(([x, y,, bar]) => [x, y, bar]), colour: colours[name] }));
       const [shot] = methods.find(({ name }) => name === "progressive-monte-carlo").points;
-      if (shot) chart.series.push({ name: "", dots: false, dash: [6, 5], width: 1, colour: figures.ink("soft"), points: [shot, [10, shot[1] * Math.sqrt(shot[0] / 10)]].map(([x, y]) => [x, y]) });
+      if (shot) chart.series.push({ name: "slope −1/2", dots: false, dash: [6, 5], width: 1, colour: figures.ink("soft"), points: [shot, [10, shot[1] * Math.sqrt(shot[0] / 10)]].map(([x, y]) => [x, y]) });
       chart.after = (it, place) => {
         const across = (error, text, style) => {
           it.line([place([0.001, error]), place([10, error])], { width: 1.5, ...style });
