@@ -86,6 +86,27 @@
     const after = pixels();
     check("layer " + option.text + " is drawn", colours(after) > 3 && differ(first, after));
   }
+  {
+    const layer = view.layers.find(({ follow }) => follow), sum = (F) => F.reduce((all, x) => all + x, 0);
+    select.value = view.layers.indexOf(layer);
+    select.dispatchEvent(new Event("change"));
+    const fromLamp = pixels();
+    document.getElementById("number").value = chosen;
+    document.getElementById("choose").requestSubmit();
+    const F = layer.factors, target = F.indexOf(Math.max(...F));
+    check("form factors follow the chosen patch", differ(fromLamp, pixels()) && document.getElementById("legend-unit").textContent.includes(`patch ${chosen}`));
+    check(`none is negative or to the patch itself, and they sum to 1 at most (${number(sum(F))})`, F[chosen] === 0 && F.every((x) => x >= 0) && sum(F) < 1.002);
+    if (/office_3576|room_1002/.test(run.scene)) check("in a closed room they sum to 1", Math.abs(sum(F) - 1) < 0.01);
+    view.select(target);
+    check(`A F from two centres is about the same (${number(F[target] * run.area[chosen])}, ${number(layer.factors[chosen] * run.area[target])})`,
+      Math.abs(F[target] * run.area[chosen] / (layer.factors[chosen] * run.area[target]) - 1) < 0.25);
+    for (const [from, to, expected] of window.expectedFactors ?? []) {
+      view.select(from);
+      const found = layer.factors[to]; // pixels make some per cent
+      check(`F from ${from} to ${to} is the program's (${number(found)}, ${number(expected)})`, Math.abs(found - expected) < 0.08 * expected);
+    }
+    key("Escape");
+  }
   select.value = 0;
   select.dispatchEvent(new Event("change"));
   check("the first layer comes back", !differ(first, pixels()));

@@ -52,6 +52,12 @@ OBJ
 "$hemilux" solve -t 1 "$root/examples/scenes/office_3576.obj" -q --error 10% --report "$folder/divided.html"
 "$hemilux" solve -t 1 "$root/examples/scenes/room_1002.obj" -q --method hemisphere --steps 3 --report "$folder/hemisphere.html"
 "$hemilux" solve -t 1 hostile.obj -q --max-edge .1 --steps 3 --report "$folder/hostile.html"
+# What the program finds by hemicubes of its own: from some patches to those that they see best.
+"$hemilux" formfactors -t 1 hostile.obj -q --max-edge .1 --factors hemicube:128 -o factors.csv
+awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) column[$k] = k; next }
+    { i = $column["i"]; F = $column["F"] } i % 50 == 7 && F > most[i] { most[i] = F; to[i] = $column["j"] }
+    END { printf "window.expectedFactors = ["; for (i in most) printf "[%d,%d,%s],", i, to[i], most[i]; print "];" }' \
+    factors.csv >factors.js
 "$hemilux" solve -t 1 "$root/examples/scenes/room_1002.obj" -q --steps 3 --sky 1 --report "$folder/sky.html"
 compare="compare -t 1 -q -o compared --runs 2 --rays 10 --reference-error .05"
 "$hemilux" $compare "$root/examples/scenes/office_3576.obj" --methods hemisphere,stratified,stored-transport \
@@ -64,7 +70,7 @@ for page in office divided hemisphere hostile sky compared compared-hostile; do
     [ "$(wc -c <"$folder/$page.html")" -lt 3000000 ] || { echo "FAILS: $page is too large"; status=1; }
     case $page in compared*) check=check_comparison.js ;; *) check=check_report.js ;; esac
     sed '/^<\/body>/,$d' "$folder/$page.html" >checked.html
-    { echo '<script>'; cat "$root/scripts/$check"; echo '</script></body></html>'; } >>checked.html
+    { echo '<script>'; [ $page != hostile ] || cat factors.js; cat "$root/scripts/$check"; echo '</script></body></html>'; } >>checked.html
     for size in 1240,1000 500,900; do
         echo "== $page, window of $size"
         look --window-size=$size --dump-dom "file://$scratch/checked.html" >dom || status=1

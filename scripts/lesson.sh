@@ -31,6 +31,14 @@ cmake --build "$build" --parallel "$(nproc 2>/dev/null || echo 2)"
 rm -rf "$build/site"
 cp -r lesson/site "$build/site"
 cp "$build/hemilux.js" "$build/site"
+# A scene of the examples, in the form of a script, as a page from the disk can read no other file.
+{
+    printf 'rooms.files = { room_1002: { obj: `'
+    cat examples/scenes/room_1002.obj
+    printf '`, mtl: `'
+    cat examples/scenes/room_1002.mtl
+    printf '` } };\n'
+} >"$build/site/examples.js"
 # The page loads a script for each chapter that there is.
 scripts=$(find lesson/site/chapters -name '*.js' | sed 's,.*/\(.*\)\.js,\1,' | sort -n |
     sed 's,.*,<script src="chapters/&.js"></script>,')

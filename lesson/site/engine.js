@@ -163,7 +163,8 @@ const hemilux = (() => {
     return Object.assign(list, { average });
   };
 
-  // Reads a Wavefront OBJ with its MTL: v, f (any convex polygon), usemtl; Kd, Ke.
+  // Reads a Wavefront OBJ with its MTL: v, f (any convex polygon), usemtl; Kd, Ke. Throws an Error with the line that is
+  // wrong and what is expected there.
   const readObj = (obj, mtl = "") => {
     const materials = [], byName = new Map();
     const add = (name) => {
@@ -173,30 +174,35 @@ const hemilux = (() => {
       }
       return byName.get(name);
     };
-    const words = (text) => text.split("\n").map((line) => line.replace(/#.*/, "").trim().split(/\s+/));
+    const check = (holds, at, expected) => { if (!holds) throw new Error(`${at}: ${expected}`); };
+    const eachLine = (kind, text, take) => text.split("\n").forEach((line, k) =>
+      take(line.replace(/#.*/, "").trim().split(/\s+/), `line ${k + 1} of the ${kind}`));
+    const triple = (words, at, name, low, high) => {
+      const numbers = words.slice(0, 3).map(Number);
+      check(numbers.length === 3 && numbers.every((x) => Number.isFinite(x) && x >= low && x <= high), at, `${name} has three numbers` +
+        (high < Infinity ? ` from ${low} to ${high}` : low === 0 ? ", none of them negative" : ""));
+      return numbers;
+    };
     let material = -1;
-    for (const [word, ...rest] of words(mtl)) {
+    eachLine("MTL", mtl, ([word, ...rest], at) => {
       if (word === "newmtl") material = add(rest.join(" "));
-      if (word === "Kd") materials[material].reflectance = rest.slice(0, 3).map(Number);
-      if (word === "Ke") materials[material].emission = rest.slice(0, 3).map(Number);
-    }
+      if (word !== "Kd" && word !== "Ke") return;
+      check(material >= 0, at, `newmtl stands before ${word}`);
+      if (word === "Kd") materials[material].reflectance = triple(rest, at, "Kd", 0, 1);
+      else materials[material].emission = triple(rest, at, "Ke", 0, Infinity);
+    });
     const vertices = [], facets = [];
     material = -1;
-    words(obj).forEach(([word, ...rest], line) => {
-      if (word === "v") {
-        vertices.push(rest.slice(0, 3).map(Number));
-        if (!(vertices.at(-1).length === 3 && vertices.at(-1).every(Number.isFinite)))
-          throw new Error(`line ${line + 1}: a vertex has three numbers`);
-      }
+    eachLine("OBJ", obj, ([word, ...rest], at) => {
+      if (word === "v") vertices.push(triple(rest, at, "a vertex", -Infinity, Infinity));
       if (word === "usemtl") material = add(rest.join(" "));
       if (word !== "f") return;
       const corners = rest.map((entry) => {
-        const index = parseInt(entry, 10);
-        const at = index < 0 ? vertices.length + index : index - 1;
-        if (!(at >= 0 && at < vertices.length)) throw new Error(`line ${line + 1}: there is no vertex ${entry}`);
-        return at;
+        const index = parseInt(entry, 10), corner = index < 0 ? vertices.length + index : index - 1;
+        check(corner >= 0 && corner < vertices.length, at, `there is no vertex ${entry}`);
+        return corner;
       });
-      if (corners.length < 3) throw new Error(`line ${line + 1}: a face has three corners at least`);
+      check(corners.length >= 3, at, "a face has three corners at least");
       if (material < 0) material = add("default");
       if (corners.length <= 4) facets.push({ corners, material });
       else for (let k = 1; k + 1 < corners.length; ++k) facets.push({ corners: [corners[0], corners[k], corners[k + 1]], material });

@@ -121,6 +121,7 @@ const figures = (() => {
       const high = [0, 1, 2].map((k) => Math.max(...corners.map((c) => c[k])));
       this.middle ??= scale(add(low, high), 0.5);
       this.radius ??= length(sub(high, low)) / 2;
+      this.box = [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => [0, 1, 2].map((k) => (corner >> k & 1 ? high : low)[k]));
     }
     turn(yaw, pitch) {
       this.eye.yaw += yaw;
@@ -165,11 +166,17 @@ const figures = (() => {
       this.up = cross(back, this.right);
       this.back = back;
       this.place = add(this.middle, scale(back, 3.1 * this.radius / zoom));
+      // Nothing of the room is cut off, however it is turned.
+      this.factor = this.box.reduce((factor, corner) => {
+        const to = sub(corner, this.place), depth = -dot(to, back);
+        const [x, y] = [this.right, this.up].map((axis) => Math.abs(dot(to, axis)));
+        return depth > 0 ? Math.min(factor, 0.49 * depth * Math.min(this.width / x, this.height / y)) : factor;
+      }, 1.95 * Math.min(this.height, this.width));
     }
     // A place of the world on the canvas, and its distance.
     project(point) {
       const to = sub(point, this.place), depth = -dot(to, this.back);
-      const factor = 1.95 * Math.min(this.height, this.width) / Math.max(depth, 1e-3 * this.radius);
+      const factor = this.factor / Math.max(depth, 1e-3 * this.radius);
       return [this.width / 2 + factor * dot(to, this.right), this.height / 2 - factor * dot(to, this.up), depth];
     }
     order() {
@@ -247,7 +254,8 @@ const figures = (() => {
     }
   }
 
-  // A chart with linear or logarithmic axes: series [{ name, points: [[x, y]], colour, dash, dots }].
+  // A chart with linear or logarithmic axes: series [{ name, points: [[x, y, half]], colour, dash, dots }]. `half`, where
+  // there is one, is half of the length of an error bar.
   class ChartView extends View {
     constructor(parent, options) {
       super(parent, { ratio: 1.5, kind: "chart", ...options });
@@ -290,6 +298,11 @@ const figures = (() => {
         const shown = points.filter(([x, y]) => !this.log || (x > 0 && y > 0)).map(place);
         if (shown.length > 1) this.line(shown, { colour, width, dash });
         if (dots) shown.forEach(([x, y]) => this.dot(x, y, 2.6, colour));
+        for (const [x, y, half] of points.filter((point) => point[2] > 0)) {
+          const [from, to] = [-half, half].map((off) => place([x, this.log ? Math.max(y + off, ys[0] / 10) : y + off]));
+          this.line([from, to], { colour, width: 1.5 });
+          for (const [at, end] of [from, to]) this.line([[at - 3, end], [at + 3, end]], { colour, width: 1.5 });
+        }
       }
       this.pen.restore();
       const named = this.series.filter(({ name, points }) => name && points.length);

@@ -42,6 +42,7 @@ const lesson = (() => {
       this.isOpen = false;
       clearTimeout(this.addressing);
       this.views.forEach((view) => view.close());
+      this.onClose?.();
       this.rooms?.forEach((room) => room.delete());
     }
     // Makes a room that goes with the figure.
@@ -55,7 +56,7 @@ const lesson = (() => {
       this.views_.append(box);
       const made = new Kind(box, options);
       box.classList.toggle("wide", Boolean(options.wide));
-      if (options.title) box.prepend(element("div", { className: "title" }, options.title));
+      if (options.title) box.prepend(made.title = element("div", { className: "title" }, options.title));
       this.views.push(made);
       if (made.eye && this.state.eye !== undefined) {
         const [yaw, pitch] = String(this.state.eye).split(",").map(Number);
@@ -112,6 +113,24 @@ const lesson = (() => {
       this.controls.append(made);
       return made;
     }
+    // Offers files, chosen or dropped onto the figure: take({ obj: text, mtl: text }), by the last word of their names.
+    files(label, accept, take) {
+      const input = element("input", { type: "file", multiple: true, accept });
+      const read = async (list) => {
+        const texts = await Promise.all([...list].map(async (file) => [file.name.split(".").at(-1).toLowerCase(), await file.text()]));
+        if (this.isOpen) take(Object.fromEntries(texts));
+      };
+      input.onchange = () => read(input.files);
+      this.controls.append(element("label", { className: "file" }, element("span", {}, label), input));
+      const box = this.controls.parentNode;
+      box.ondragover = (event) => { event.preventDefault(); box.classList.add("dropping"); };
+      box.ondragleave = () => box.classList.remove("dropping");
+      box.ondrop = (event) => {
+        event.preventDefault();
+        box.classList.remove("dropping");
+        read(event.dataTransfer.files);
+      };
+    }
     say(text) { if (this.sentence.textContent !== text) this.sentence.textContent = text; }
     table(head, rows) {
       this.numbers.replaceChildren(
@@ -136,7 +155,8 @@ const lesson = (() => {
     // Calls work() between pictures until it returns false.
     async repeat(work) {
       const turn = this.turn = {};
-      while (this.isOpen && this.turn === turn && work()) {
+      for (let isMore = true; isMore && this.isOpen && this.turn === turn;) {
+        isMore = work();
         this.views.forEach((view) => view.draw());
         await new Promise((resolve) => setTimeout(resolve, 0));
       }

@@ -95,13 +95,15 @@ const rooms = (() => {
     }
     return scene;
   };
+  // A scene of the program's examples, as scripts/lesson.sh puts it into examples.js.
+  const example = (name) => hemilux.readObj(rooms.files[name].obj, rooms.files[name].mtl);
   // Writes a scene as OBJ and MTL, for the program.
   const toObj = (scene, library) => ({
     obj: [`mtllib ${library}`, ...scene.vertices.map((v) => `v ${v.join(" ")}`),
       ...scene.facets.flatMap(({ corners, material }) => [`usemtl ${scene.materials[material].name}`, `f ${corners.map((c) => c + 1).join(" ")}`]), ""].join("\n"),
     mtl: scene.materials.flatMap(({ name, reflectance, emission }) => [`newmtl ${name}`, `Kd ${reflectance.join(" ")}`, `Ke ${emission.join(" ")}`, ""]).join("\n"),
   });
-  return { begin, sheet, box, shell, grey, pair, small, boxes, crowd, furnace, toObj };
+  return { begin, sheet, box, shell, grey, pair, small, boxes, crowd, furnace, example, toObj };
 })();
 
 if (typeof exports === "object") exports.rooms = rooms;

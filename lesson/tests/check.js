@@ -36,13 +36,16 @@
 
   // What is true of each chapter.
   const asChapter = async (chapter) => {
-    const { number, title, state, exercises } = chapter, say = (what, holds) => check(`${number}. ${what}`, holds);
-    const figure = await open(`#${number}`);
+    const { number, title, exercises } = chapter, state = { ...chapter.state, ...chapter.quick }, say = (what, holds) => check(`${number}. ${what}`, holds);
+    await open(`#${number}?${new URLSearchParams(chapter.quick ?? {})}`);
     await settled();
     say(`"${title}" is shown`, document.querySelector("h1")?.textContent === title && document.title.startsWith(title));
     const words = document.querySelector("article").textContent.trim().split(/\s+/).length;
     say(`its text has ${words} words, at most 250`, words <= 250);
     say("every canvas is drawn and has a text", all(".views canvas").length > 0 && all(".views canvas").every((canvas) => colours(canvas) > 8 && canvas.getAttribute("aria-label")));
+    const inside = (view) => view.room.patches.flatMap(({ corners }) => corners).map((corner) => view.project(corner))
+      .every(([x, y]) => x >= 0 && x <= view.width && y >= 0 && y <= view.height);
+    say("no room is cut off", lesson.figure.views.filter((view) => view.room).every(inside));
     say("the figure has a sentence and a table", document.querySelector(".sentence").textContent.length > 20 && all("details.numbers tbody tr").length > 0);
     say("no text is wider than the window", document.documentElement.scrollWidth <= window.innerWidth);
     say("all controls have names", all(".controls input, .controls select").every((input) => input.labels[0]?.textContent.length > 1));
@@ -206,10 +209,30 @@
       const { first } = lesson.figure.values, raysTo = (method) => rays[method][errors[method].findIndex((error) => error <= 0.05)] ?? Infinity;
       check("7. the sentence names a method with a useful picture", first && least(first) <= 0.05 && document.querySelector(".sentence").textContent.includes(first));
       check("7. stored transport has one after fewer rays than shooting", raysTo("stored-transport") < Math.min(...["hemisphere", "stratified", "monte-carlo", "progressive-monte-carlo"].map(raysTo)));
+      const { bars, reference } = lesson.figure.values;
+      check("7. the chart has all curves", colours(document.querySelector("canvas.chart")) > 60);
+      check("7. every point of three runs has an error bar", Object.values(bars).every((list) => list.length > 0 && list.every((bar) => bar > 0)));
+      check(`7. the bars are standard errors of means: shorter than the errors (${figures.percent(bars["monte-carlo"][0])} of ${figures.percent(errors["monte-carlo"][0])})`,
+        bars["monte-carlo"].every((bar, k) => bar < 0.5 * errors["monte-carlo"][k]));
+      check(`7. the reference is within 0.3 % (${figures.percent(reference)}), and no method is nearer to it`, reference <= 0.003 && Math.min(...Object.keys(errors).map(least)) > reference);
+      await open("#7?runs=1&seconds=0.25");
+      await settled();
+      check("7. a single run has no bars", Object.values(lesson.figure.values.bars).flat().every((bar) => bar === 0));
       const room = new hemilux.Room(rooms.boxes({ n: 6 })), run = room.run("stored-transport", { steps: 2 }).step().step();
-      check("7. the default method has the program's light", close(run.light, expected.stored.light, 1e-8));
+      check("7. the default method has the program's light, to the last bit", same(run.light, expected.stored.light));
       run.delete();
       room.delete();
+      await open("#7?room=room_1002&runs=2&seconds=0.25&useful=1");
+      await settled();
+      const paper = lesson.figure.values, at = paper.errors["stored-transport"].findIndex((error) => error <= 0.01);
+      check(`7. in the paper's room the default method reaches 1 % (${figures.format(paper.rays["stored-transport"][at])} rays)`, at >= 0 && paper.rays["stored-transport"][at] < 3e5);
+      check(`7. the sentence names it (${paper.first})`, paper.first === "stored-transport" && document.querySelector(".sentence").textContent.startsWith("The first picture within 1 % is by stored-transport"));
+      check("7. shooting does not with as many rays", paper.errors.hemisphere.every((error, k) => error > 0.01 || paper.rays.hemisphere[k] > 3e5));
+      const hall = new hemilux.Room(rooms.example("room_1002")), solver = hall.run("stored-transport");
+      do solver.step(); while (solver.figures.error > 0.01);
+      check("7. when its own estimate is 1 % it has the program's light, to the last bit", hall.patches.length === 1002 && same(solver.light, expected.example.light) && solver.figures.rays === expected.example.rays);
+      solver.delete();
+      hall.delete();
     },
     8: async () => {
       const guides = {};
@@ -236,6 +259,56 @@
       check(`10. gathers are far better than the patches that they come from (${figures.percent(middle.gathered)})`, middle.gathered < 0.5 * middle.patches);
       check("10. more rays of a gather leave less noise", many.gathered < middle.gathered);
       check("10. the reference has 1024 patches", fine.count === 1024);
+      // A reader's room, by the file input and dropped.
+      const sentence = () => document.querySelector(".sentence").textContent;
+      const carry = (texts) => {
+        const data = new DataTransfer();
+        for (const [name, content] of Object.entries(texts)) data.items.add(new File([content], name));
+        return data;
+      };
+      const until = async (holds) => { for (let tries = 0; tries < 500 && !holds(); ++tries) await wait(20); };
+      const choose = async (texts) => {
+        const before = sentence(), input = document.querySelector("input[type=file]");
+        input.files = carry(texts).files;
+        input.dispatchEvent(new Event("change"));
+        await until(() => sentence() !== before);
+      };
+      const drop = async (texts) => {
+        const before = sentence();
+        document.querySelector(".views canvas").dispatchEvent(new DragEvent("drop", { dataTransfer: carry(texts), bubbles: true, cancelable: true }));
+        await until(() => sentence() !== before);
+      };
+      const { obj, mtl } = rooms.files.room_1002, ownIs = () => {
+        const { light, rays, count } = lesson.figure.values;
+        return count === 1002 && light && same(light, expected.own.light) && rays === expected.own.rays;
+      };
+      for (const [how, give] of [["chosen", choose], ["dropped", drop]]) {
+        await open("#10");
+        const before = pictures();
+        await give({ "room.obj": obj, "room.mtl": mtl });
+        check(`10. a ${how} OBJ has the program's light, to the last bit (${sentence()})`, ownIs() && sentence().startsWith("Your room has 1002 patches."));
+        check(`10. a ${how} OBJ changes the figure`, pictures() !== before && all("details.numbers tbody tr").length === rooms.example("room_1002").materials.length);
+      }
+      all(".controls button").find(({ textContent }) => textContent.startsWith("Back")).click();
+      check("10. a button goes back to the room with two boxes", sentence().startsWith("On 256 patches"));
+      const lamp = "newmtl lamp\nKd 0.5 0.5 0.5\nKe 1 1 1\n", square = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl lamp\n";
+      const bad = [
+        ["without an OBJ", { "room.txt": "hello" }, "an OBJ file is expected, with its MTL file beside it"],
+        ["of something else", { "room.obj": "\x00\x01PNG" }, "the OBJ has no face (f)"],
+        ["with a word for a number", { "room.obj": "v 0 0 0\nv 1 zero 0\n" }, "line 2 of the OBJ: a vertex has three numbers"],
+        ["with a corner that is not there", { "room.obj": `${square}f 1 2 9\n`, "room.mtl": lamp }, "line 5 of the OBJ: there is no vertex 9"],
+        ["with a face of two corners", { "room.obj": `${square}f 1 2\n`, "room.mtl": lamp }, "line 5 of the OBJ: a face has three corners at least"],
+        ["whose faces are points", { "room.obj": `${square}f 1 1 1\n`, "room.mtl": lamp }, "its faces have no area"],
+        ["without a lamp", { "room.obj": `${square}f 1 2 3\n` }, "nothing emits light: choose the MTL file too"],
+        ["with a dark MTL", { "room.obj": `${square}f 1 2 3\n`, "room.mtl": "newmtl lamp\nKd 0.5 0.5 0.5\n" }, "nothing emits light: a material of the MTL needs Ke"],
+        ["with a reflectance of 2", { "room.obj": obj, "room.mtl": "newmtl wall\nKd 2 0.5 0.5\n" }, "line 2 of the MTL: Kd has three numbers from 0 to 1"],
+        ["with a colour of nothing", { "room.obj": obj, "room.mtl": "Kd 0.5 0.5 0.5\n" }, "line 1 of the MTL: newmtl stands before Kd"],
+        ["that is too large", { "room.obj": square + "f 1 2 3\n".repeat(10001), "room.mtl": lamp }, "it has 10001 faces, and this page takes 10000 at most"],
+      ];
+      for (const [what, texts, message] of bad) {
+        await choose(texts);
+        check(`10. a file ${what} gets one message: ${sentence()}`, lesson.figure.values.count === 256 && sentence() === `This file cannot be shown: ${message}.`);
+      }
     },
   };
 

@@ -42,6 +42,7 @@ for (const file of fs.readdirSync(path.join(site, "chapters"))) {
 
 const pair = write("pair", rooms.pair({})), small = write("small", rooms.small({})), boxes = write("boxes", rooms.boxes({ n: 6 }));
 const crowd = write("crowd", rooms.crowd({ things: 4 })), furnace = write("furnace", rooms.furnace());
+const example = path.join(root, "examples/scenes/room_1002.obj");
 const expected = {
   pair: factors(pair, "--factors", "exact"),
   small: { light: solve(small, "--method", "matrix", "--exact").light, factors: factors(small, "--factors", "exact") },
@@ -53,5 +54,8 @@ const expected = {
   printed: solve(crowd, "--method", "hemisphere", "--literal", "--plain", "--steps", 2),
   furnace: solve(furnace, "--method", "hemisphere", "--literal", "--plain", "--steps", 8),
   stored: solve(boxes, "--method", "stored-transport", "--steps", 2),
+  // A scene of the examples: as the default method ends, and by the step that chapter 10 takes with a reader's room.
+  example: solve(example, "--method", "stored-transport"),
+  own: solve(example, "--method", "stored-transport", "--rays", 256, "--steps", 1),
 };
 fs.writeFileSync(path.join(folder, "expected.js"), `const expected = ${JSON.stringify(expected)};\n`);

@@ -32,21 +32,56 @@ materials.</p>`,
     f.slider("height", "Box, height", 0.2, 2, 0.05);
     f.slider("lamp", "Lamp", 0.1, 2, 0.1);
     f.slider("reflectance", "Walls", 0.1, 0.85, 0.05);
-    const file = lesson.element("input", { type: "file", multiple: true, accept: ".obj,.mtl" });
-    f.controls.append(lesson.element("label", { className: "file" }, lesson.element("span", {}, "Your own OBJ, with its MTL"), file));
-    file.onchange = async () => {
-      const texts = {};
-      for (const one of file.files) texts[one.name.split(".").at(-1).toLowerCase()] = await one.text();
+    // The reader's own room, or what is wrong with its file.
+    const maxFaces = 10000;
+    const ownScene = ({ obj, mtl }) => {
+      if (obj === undefined) throw new Error("an OBJ file is expected, with its MTL file beside it");
+      const { facets, materials, ...rest } = hemilux.readObj(obj, mtl);
+      if (!facets.length) throw new Error("the OBJ has no face (f)");
+      if (facets.length > maxFaces) throw new Error(`it has ${facets.length} faces, and this page takes ${maxFaces} at most`);
+      if (!facets.some(({ material }) => materials[material].emission.some((x) => x > 0)))
+        throw new Error(mtl === undefined ? "nothing emits light: choose the MTL file too" : "nothing emits light: a material of the MTL needs Ke");
+      return { facets, materials, ...rest };
+    };
+    f.files("Your own OBJ, with its MTL: drop both, or", ".obj,.mtl", (texts) => {
       try {
-        f.own = hemilux.readObj(texts.obj ?? "", texts.mtl ?? "");
-        if (!f.own.facets.length) throw new Error("there is no face in it");
-        if (!f.own.facets.some(({ material }) => f.own.materials[material].emission.some((x) => x > 0)))
-          throw new Error("nothing emits light: a material of the MTL needs Ke");
+        f.own = ownScene(texts);
         f.update();
       } catch (error) {
         f.own = null;
+        f.update();
         f.say(`This file cannot be shown: ${error.message}.`);
       }
+    });
+    f.button("Back to the room with two boxes", () => { f.own = null; f.update(); });
+    const titles = { view: view.title.textContent, chart: chart.title.textContent };
+    // Patches from dark to bright over the area that they add.
+    const byBrightness = (room, light) => {
+      const mean = (patch) => (light[3 * patch.index] + light[3 * patch.index + 1] + light[3 * patch.index + 2]) / 3;
+      let area = 0;
+      return [...room.patches].sort((p, q) => mean(p) - mean(q)).map((patch) => [area += patch.area, mean(patch)]);
+    };
+    const showOwn = () => {
+      const room = f.room(f.own);
+      if (!room.patches.some(({ area }) => area > 0)) throw new Error("its faces have no area");
+      const run = room.run("stored-transport", { rays: 256, steps: 1 }).step();
+      const { light, figures: { rays: traced, error } } = run;
+      run.delete();
+      view.middle = view.radius = undefined;
+      view.room = room;
+      view.colour = figures.lit(light, figures.exposure(room, light, 0.95));
+      view.after = null;
+      view.title.textContent = "Your room";
+      chart.title.textContent = "Light of your patches [W/m²], from dark to bright";
+      chart.x = "area of patches [m²]";
+      chart.series = [{ name: "patches", points: byBrightness(room, light), dots: false }];
+      f.values = { light: [...light], count: room.patches.length, rays: traced, error };
+      f.say(`Your room has ${room.patches.length} patches. ${figures.format(traced)} rays found its light, within ${figures.percent(error)} by their own estimate.`);
+      f.table(["Material", "Patches", "Area [m²]", "Mean light [W/m²]"], f.own.materials.map(({ name }, k) => {
+        const of = room.patches.filter(({ material }) => material === k), area = of.reduce((sum, patch) => sum + patch.area, 0);
+        const power = of.reduce((sum, { index, area: own }) => sum + own * (light[3 * index] + light[3 * index + 1] + light[3 * index + 2]) / 3, 0);
+        return [name, of.length, area, area > 0 ? power / area : 0];
+      }));
     };
     const points = Array.from({ length: 60 }, (_, k) => [0.025 + k * 0.05, 2.62]);
     const solve = (room, rays) => {
@@ -66,16 +101,11 @@ materials.</p>`,
       const { cells, rays, x, z, height, lamp, reflectance, show } = f.state, n = Number(cells);
       f.rooms?.forEach((old) => old.delete());
       f.rooms = [];
-      if (f.own) {
-        const room = f.room(f.own, 0), light = solve(room, 256);
-        view.middle = view.radius = undefined;
-        view.room = room;
-        view.colour = figures.lit(light, figures.exposure(room, light, 0.95));
-        view.after = null;
-        chart.series = [];
-        f.say(`Your room has ${room.patches.length} patches.`);
-        return;
-      }
+      if (f.own) return showOwn();
+      if (view.title.textContent !== titles.view) view.middle = view.radius = undefined;
+      view.title.textContent = titles.view;
+      chart.title.textContent = titles.chart;
+      chart.x = "metres from the left wall";
       const make = (k) => rooms.boxes({ n: k, reflectance, lamp, second: [x, z, height] });
       const key = [x, z, height, lamp, reflectance].join();
       if (key !== built) {

@@ -13,9 +13,9 @@ own plane: these squares are dark.</p>
 further bounce multiplies by <var>ρF</var> once more, so it brings about <var>ρ</var> times as much as the one before. The
 sum is a geometric series, and its limit solves the system.</p>
 <p>Click a patch, or its row. With <i>Form factors</i> the room shows how much of the patch's light goes where. Look at
-the ceiling: before the first bounce that it gets is the second one, it is black. All of its light was on another surface
+the ceiling: its first light comes with the second bounce, and before that it is black. All of its light was on another surface
 before.</p>
-<p>The lamp only scales: twice the lamp, twice the light everywhere. The reflectance does more. At 0.5 some seven bounces
+<p>The lamp only scales: twice the lamp, twice the light everywhere. The reflectance does more. At 0.5 six bounces
 are enough for one per cent; at 0.9 you need many more.</p>`,
   source: {
     section: "2", sentence: "The relationship between the radiosity of a given patch and the remainder is given by the following formula.",

@@ -6,7 +6,7 @@ function showScene(run) {
   const { eye, target, up, fov } = run.camera;
   const camera = new OrbitCamera({ eye: inScene(eye), target: inScene(target), up, fov }, view.radius);
   view.camera = camera;
-  const layers = layersOf(run, view);
+  const layers = [...layersOf(run, view), factorLayer(run, view)];
   layers.forEach(({ name }, k) => at("layer").append(element("option", { value: k, text: name })));
   const factors = new Map(layers.filter(({ light }) => light).map((layer) =>
     [layer, layer.of === "radiosity" && run.exposure ? run.exposure : exposureFor(run, layer)]));
@@ -21,6 +21,7 @@ function showScene(run) {
   const current = () => layers[Number(at("layer").value)];
   const showLayer = () => {
     const layer = current();
+    layer.follow?.();
     const smooth = layer.light && layer.smooth && at("smooth").checked;
     view.paint(smooth ? layer.smooth : layer.light ? layer.flat : layer.colourOf);
     at("exposure").disabled = !layer.light;
@@ -37,6 +38,12 @@ function showScene(run) {
   at("controls").addEventListener("submit", (event) => event.preventDefault());
   new ResizeObserver(() => view.redraw()).observe(at("canvas"));
   showLayer();
+  view.layers = layers;
+  view.select = (patch) => {
+    view.selected = patch;
+    if (current().follow) showLayer();
+    view.redraw();
+  };
   return view;
 }
 
@@ -117,7 +124,7 @@ function showPage(run) {
   let view = null;
   const choose = (patch) => {
     describePatch(run, patch);
-    if (view) { view.selected = patch; view.redraw(); }
+    if (view) view.select(patch);
   };
   describePatch(run, null);
   at("number").max = run.patches - 1;
