@@ -26,7 +26,7 @@ case ${1-} in
 --asan) preset=asan slow=no ;;
 --tsan) preset=tsan slow=no ;;
 --clang) preset=clang slow=no packages="catch2 clang" ;;
---lesson) preset=release packages="" ;;
+--lesson) packages="" ;;
 --lint) preset=tidy packages="clang clang-format clang-tidy" ;;
 -h | --help) usage; exit 0 ;;
 *) usage >&2; exit 1 ;;
@@ -68,9 +68,9 @@ if [ "${1-}" = --lesson ]; then
         exit 77
     fi
     scripts/lesson.sh
-    cmake --preset release >/dev/null
-    cmake --build --preset release --parallel "$cores" --target hemilux_program
-    exec scripts/check_lesson.sh build/release/hemilux build/lesson/site
+    cmake --preset "$preset" >/dev/null
+    cmake --build --preset "$preset" --parallel "$cores" --target hemilux_program
+    exec scripts/check_lesson.sh "build/$preset/hemilux" build/lesson/site
 fi
 cmake --preset "$preset" >/dev/null
 cmake --build --preset "$preset" --parallel "$cores"
