@@ -250,15 +250,26 @@ void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> 
 }
 
 void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
-                  const std::string& path) {
+                  const std::string& path, const std::string& advice) {
     if (!limit || need.all() <= static_cast<double>(*limit))
         return;
-    throw std::runtime_error(
-        path + ": needs about " + rounded(need.all()) + " (scene " + rounded(need.scene) +
-        ", patches " + rounded(need.mesh) + ", tree " + rounded(need.tree) + ", method " +
-        rounded(need.method) + ", results " + rounded(need.results) + "), and --memory is " +
-        rounded(static_cast<double>(*limit)) +
-        "; a larger --max-edge, fewer --rays, a smaller --size or --no-gather need less");
+    throw std::runtime_error(path + ": needs about " + rounded(need.all()) + " (scene " +
+                             rounded(need.scene) + ", patches " + rounded(need.mesh) + ", tree " +
+                             rounded(need.tree) + ", method " + rounded(need.method) +
+                             ", results " + rounded(need.results) + "), and --memory is " +
+                             rounded(static_cast<double>(*limit)) + "; " + advice);
+}
+
+std::function<void(double bytes)> memory_guard(const MemoryNeed& need,
+                                               std::optional<std::uint64_t> limit,
+                                               const std::string& path, const std::string& advice) {
+    if (!limit)
+        return {};
+    return [need, limit, path, advice](double bytes) {
+        MemoryNeed grown = need;
+        grown.results += bytes;
+        check_memory(grown, limit, path, advice);
+    };
 }
 
 } // namespace hemilux
