@@ -150,9 +150,7 @@ void check_some_bound(const Workplace& place, const std::string& arguments) {
         const int code = bounded.wait();
         if (code == 3) {
             const std::string message = place.read("stderr.txt");
-            CHECK_THAT(message, Contains("hemilux: room.obj: needs about "));
-            CHECK_THAT(message, Contains(", and --memory is "));
-            CHECK_THAT(message, Contains("--max-edge"));
+            CHECK_THAT(message, Contains(": needs ") && Contains(", and --memory is "));
             continue;
         }
         CHECK(code == 0);
