@@ -121,7 +121,9 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
         return exit_done;
     }
     for (const SceneSettings* const scene :
-         {&solve_settings.scene, &bake_settings.scene, &compare_settings.scene})
+         {&solve_settings.scene, &bake_settings.scene, &compare_settings.scene,
+          &density_settings.scene, &formfactor_settings.scene, &viewfactor_settings.scene,
+          &info_settings.scene})
         if (scene->memory) // of the command that was given
             bound_inputs(scene->memory);
     if (solve_command.parsed()) {

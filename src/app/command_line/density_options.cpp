@@ -62,6 +62,7 @@ Command add_density_command(Arguments& program, DensitySettings& settings) {
         "density", "draw the divided hemisphere of a patch, or the densities of a scene");
     const Command method = command.under(method_group), outputs = command.under(output_group);
     add_scene_options(command, settings.scene);
+    add_memory_option(command.under(scene_group), settings.scene);
     add_dividing_method(method, settings.method);
     add_division_options(method, settings.options);
     add_dividing_guide(method, settings.options);

@@ -29,6 +29,7 @@ Command add_formfactors_command(Arguments& program, FormFactorSettings& settings
         program.add_command("formfactors", "write the form factors between all patches");
     const Command method = command.under(method_group);
     add_scene_options(command, settings.scene);
+    add_memory_option(command.under(scene_group), settings.scene);
     add_parsed(method, "--rays", "N", "rays per patch, a power of two [4096]",
                "a power of two from 1 to 1048576", power_of_two,
                [&settings](std::uint32_t rays) { settings.rays = rays; });

@@ -22,6 +22,7 @@ Command add_info_command(Arguments& program, InfoSettings& settings) {
     const Command command = program.add_command(
         "info", "what was read from a scene, what is doubtful in it, what it does not need");
     add_scene_options(command, settings.scene);
+    add_memory_option(command.under(scene_group), settings.scene);
     command.under(output_group)
         .add_flag("--json", settings.json, "one JSON object instead of lines of text");
     add_verbosity_options(command, settings.verbosity);

@@ -21,7 +21,7 @@ Option add_scene_options(Command command, SceneSettings& scene);
 /// Adds SCENE and the options that change its shapes alone, for subcommands to which light means
 /// nothing.
 void add_geometry_options(Command command, SceneSettings& scene);
-/// Adds --memory, for the subcommands that solve.
+/// Adds --memory.
 void add_memory_option(Command command, SceneSettings& scene);
 /// Adds --depth and --threshold, which say how hemispheres are divided.
 void add_division_options(Command command, SolveOptions& options);

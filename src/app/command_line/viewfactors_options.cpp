@@ -34,6 +34,7 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
     const Command command = program.add_command(
         "viewfactors", "write the view factors between surfaces, each with its error");
     add_geometry_options(command, settings.scene);
+    add_memory_option(command.under(scene_group), settings.scene);
     const Command method = command.under(method_group);
     add_choice(method, "--by", settings.by,
                {{FactorRows::face, "face"},

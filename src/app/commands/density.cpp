@@ -4,6 +4,7 @@
 #include "app/commands/divided_hemispheres.h"
 #include "app/loading/load.h"
 #include "app/loading/load_geometry.h"
+#include "app/memory/memory.h"
 #include "app/rendering/view.h"
 #include "app/running/signals.h"
 #include "app/running/write_report.h"
@@ -19,6 +20,7 @@
 #include "io/files/atomic_file.h"
 #include "radiosity/engine/densities/subdivision_1997.h"
 #include "radiosity/engine/shooting/guide.h"
+#include "radiosity/paper/hemisphere/hemisphere.h"
 
 #include <algorithm>
 #include <array>
@@ -168,6 +170,28 @@ void check_patch(const DensitySettings& settings, const Mesh& mesh) {
                                    *settings.patch, patches - 1));
 }
 
+/// Returns the bytes of the densities of so many patches, and of the drawings.
+double bytes_of_drawings(const DensitySettings& settings, double patches) {
+    constexpr double per_patch = 32, per_triangle = 8000, per_ray = 1000, per_pixel = 36;
+    constexpr double of_hemisphere = 4e6;
+    const bool has_parts = settings.method == &method_of(Role::forerunner);
+    const Subdivision1997Options& own = settings.options.own.of<Subdivision1997Options>();
+    double bytes = of_hemisphere + per_patch * patches;
+    if (settings.method->bytes)
+        bytes += settings.method->bytes(settings.options, patches);
+    if (std::ranges::any_of(settings.outputs, is_svg)) {
+        const auto triangles =
+            has_parts ? double(own.parts) * double(Subdivision1997::triangles(static_cast<int>(
+                                                own.stored_steps + own.estimated_steps)))
+                      : double(Hemisphere::cells_up_to(settings.options.depth));
+        bytes += per_triangle * triangles + per_ray * settings.rays;
+    }
+    if (!std::ranges::all_of(settings.outputs, is_svg))
+        bytes += bytes_of_picture(settings.view.size, false) +
+                 per_pixel * double(settings.view.size.width) * settings.view.size.height;
+    return bytes;
+}
+
 void log_summary(const Preprocessed& made, const PatchDensities& densities) {
     const auto [least, most] = std::ranges::minmax(densities.mean);
     log_line(made.settings.verbosity, Verbosity::normal,
@@ -188,8 +212,10 @@ int density(DensitySettings settings) {
     warn_of_unused(settings.given, uses, settings.verbosity);
     Monitor monitor;
     InterruptGuard guard;
+    const GeometryUse use{[&](double patches) { return bytes_of_drawings(settings, patches); },
+                          "a larger --max-edge, a smaller --depth and a smaller --size need less"};
     const auto [mesh, view] =
-        load_geometry(settings.scene, files, settings.options, settings.verbosity);
+        load_geometry(settings.scene, files, settings.options, use, settings.verbosity);
     if (draws_pictures)
         settings.view = view_of(settings.view, view, settings.verbosity);
     check_camera(settings.view, mesh, settings.scene.path);

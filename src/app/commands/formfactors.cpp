@@ -48,6 +48,22 @@ void log_quality(Verbosity verbosity, const MatrixQuality& quality) {
                    quality.reciprocity_mean, quality.reciprocity_most));
 }
 
+/// Returns the bytes of the factors between so many patches at their peak: the hits of rays, both
+/// ways of each pair, the matrix, and for exact factors the list of all pairs.
+double bytes_of_factors(const FormFactorSettings& settings, double patches) {
+    constexpr double per_hit = 64, per_pair = 80, per_pixel = 128, per_patch = 100;
+    const FactorOptions& factors = settings.options.own.of<FactorOptions>();
+    const double edge = factors.hemicube_edge, pixels = 3 * edge * edge;
+    const bool by_cubes = factors.kind == FactorKind::hemicube;
+    const double of_row = std::min(patches, by_cubes ? pixels : double(settings.rays));
+    double bytes = per_patch * patches + per_hit * patches * of_row;
+    if (factors.kind == FactorKind::exact)
+        bytes += per_pair * patches * patches;
+    if (by_cubes)
+        bytes += Workers(settings.options.threads).threads() * per_pixel * pixels;
+    return bytes;
+}
+
 struct Factors {
     SparseMatrix matrix;
     MatrixQuality quality;
@@ -104,8 +120,10 @@ int formfactors(const FormFactorSettings& settings) {
     warn_of_unused(settings.given, {&rays, 1}, settings.verbosity);
     Monitor monitor;
     InterruptGuard guard;
+    const GeometryUse use{[&](double patches) { return bytes_of_factors(settings, patches); },
+                          "a larger --max-edge and fewer --rays need less"};
     const Mesh mesh =
-        load_geometry(settings.scene, files, settings.options, settings.verbosity).mesh;
+        load_geometry(settings.scene, files, settings.options, use, settings.verbosity).mesh;
     check_size(settings, mesh.patches().size());
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted.own().wished);

@@ -4,6 +4,7 @@
 #include "app/division/needed_division.h"
 #include "app/loading/load.h"
 #include "app/loading/sides.h"
+#include "app/memory/memory.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
@@ -36,11 +37,22 @@ std::string describe(const SceneReport& report, const Scene& scene, const SceneS
     return text + describe(report.left_out);
 }
 
+/// The scene is there once as it was read, and once with its faces turned.
+MemoryNeed need_of(const Scene& scene, const SceneSettings& asked) {
+    MemoryNeed need = memory_need(scene, asked.mesh, {}, {});
+    need.scene +=
+        sizeof(Vec3) * double(scene.vertices.size()) + sizeof(Facet) * double(scene.facets.size());
+    return need;
+}
+
 } // namespace
 
 int info(const InfoSettings& settings) {
     const SceneSettings& asked = settings.scene;
+    check_memory_to_read(asked.path, asked.memory);
     const ReadResult read = load_scene(asked, {});
+    check_memory(need_of(read.scene, asked), asked.memory, asked.path,
+                 "a larger --max-edge needs less");
     for (const std::string& warning : read.warnings)
         log_line(settings.verbosity, Verbosity::normal, "warning: " + warning);
     SceneReport report{

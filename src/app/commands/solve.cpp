@@ -101,6 +101,19 @@ double bytes_of_own_file(const SolveSettings& settings) {
     return settings.file_bake.asked && !error ? copies * static_cast<double>(size) : 0;
 }
 
+/// Adds and logs what reading the file again has noticed, where reading it first has not warned of
+/// files outside of its folder.
+void warn_once(std::vector<std::string>& warnings, const std::vector<std::string>& more,
+               Verbosity verbosity) {
+    const auto is_outside = [](const std::string& text) {
+        return text.find(outside_warning) != std::string::npos;
+    };
+    if (std::ranges::any_of(warnings, is_outside))
+        return;
+    log_warnings(verbosity, more);
+    warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
 /// Reads the files of the run; checks its options first, and then what they are for this scene.
 Loaded load(SolveSettings settings) {
     const RunFiles files = check_files(settings);
@@ -134,6 +147,8 @@ Loaded load(SolveSettings settings) {
     FileLightmap file_lightmap;
     if (settings.file_bake.asked)
         file_lightmap = lightmap_of_file(settings, mesh, scene.origins);
+    if (file_lightmap.source)
+        warn_once(scene.warnings, file_lightmap.source->warnings(), settings.verbosity);
     return {std::move(settings),      std::move(resumed), std::move(points),
             std::move(target_points), std::move(scene),   std::move(file_lightmap)};
 }

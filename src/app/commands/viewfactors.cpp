@@ -4,6 +4,7 @@
 #include "app/commands/factor_audit.h"
 #include "app/commands/factor_surfaces.h"
 #include "app/loading/load.h"
+#include "app/memory/memory.h"
 #include "app/running/signals.h"
 #include "app/running/write_report.h"
 #include "app/settings/exit_code.h"
@@ -27,12 +28,26 @@ namespace {
 /// factors have none.
 constexpr double slack_of_rms = 1.5;
 
+constexpr const char* advice_for_memory = "a larger --max-edge and fewer --rays need less";
+
 struct LoadedSurfaces {
     Mesh mesh;
     int up;
+    MemoryNeed need; ///< but for the pairs, whose number the rays find
 };
 
+/// Returns the need but for the pairs: planes and names of surfaces, and what threads look at.
+MemoryNeed need_of(const Scene& scene, const ViewFactorSettings& settings) {
+    constexpr double per_patch = 1500, of_thread = 16e6;
+    const double patches = patches_of(scene, settings.scene.mesh);
+    MemoryNeed need = memory_need(scene, settings.scene.mesh, settings.options, {});
+    need.method = Workers(settings.options.threads).threads() * of_thread;
+    need.results = per_patch * patches;
+    return need;
+}
+
 LoadedSurfaces load_surfaces(const ViewFactorSettings& settings, const RunFiles& files) {
+    check_memory_to_read(settings.scene.path, settings.scene.memory);
     ReadResult read = load_scene(settings.scene, files);
     log_warnings(settings.verbosity, read.warnings);
     if (read.scene.facets.empty())
@@ -40,10 +55,12 @@ LoadedSurfaces load_surfaces(const ViewFactorSettings& settings, const RunFiles&
     if (settings.scene.sides == Sides::front)
         for (Facet& facet : read.scene.facets)
             facet.two_sided = false;
+    const MemoryNeed need = need_of(read.scene, settings);
+    check_memory(need, settings.scene.memory, settings.scene.path, advice_for_memory);
     const FileView view = view_of_file(settings.scene.path, read);
     Mesh mesh = divide_scene(std::move(read.scene), settings.scene, settings.options.threads);
     log_line(settings.verbosity, Verbosity::verbose, mesh_text(mesh));
-    return {std::move(mesh), settings.up.value_or(view.up.value_or(2))};
+    return {std::move(mesh), settings.up.value_or(view.up.value_or(2)), need};
 }
 
 void check_dense(const ViewFactorSettings& settings, std::size_t rows) {
@@ -111,7 +128,9 @@ ViewFactors compute(const ViewFactorSettings& settings, const LoadedSurfaces& lo
         const ExchangeOptions options{.rays = settings.rays,
                                       .tolerance = tolerance_of(settings, surfaces, largest),
                                       .seed = settings.options.seed,
-                                      .up = loaded.up};
+                                      .up = loaded.up,
+                                      .ask = memory_guard(loaded.need, settings.scene.memory,
+                                                          settings.scene.path, advice_for_memory)};
         return view_factors(loaded.mesh, tree, surfaces.row_of, surfaces.rows.size(), options,
                             workers, monitor);
     };
@@ -132,9 +151,10 @@ ViewFactors compute(const ViewFactorSettings& settings, const LoadedSurfaces& lo
     if (settings.aim.of != FactorAim::Of::largest || monitor.interrupted)
         return factors;
     const LargestFactors found = largest_factors(factors);
-    return found.worst_error <= settings.error || found.smallest >= first_guess
-               ? factors
-               : with_largest(std::max(found.smallest, smallest));
+    if (found.worst_error <= settings.error || found.smallest >= first_guess)
+        return factors;
+    factors = {}; // before there are others
+    return with_largest(std::max(found.smallest, smallest));
 }
 
 void write(const std::string& path, const ViewFactorSettings& settings, const Mesh& mesh,

@@ -1,5 +1,6 @@
 #include "app/gathering/gathered_light.h"
 
+#include "app/division/default_division.h"
 #include "app/division/whole_error.h"
 #include "app/gathering/learn_options.h"
 #include "app/settings/text.h"
@@ -17,6 +18,7 @@
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -75,7 +77,8 @@ class Gathering {
               Monitor& monitor, Statistics& statistics)
         : settings_(settings), scene_(scene), solution_(solution), monitor_(monitor),
           statistics_(statistics), workers_(settings.options.threads),
-          time_(monitor.interrupted.own().wished), error_(error_of_gathered(settings)) {
+          time_(monitor.interrupted.own().wished), limits_(settings.stop),
+          error_(error_of_gathered(settings)) {
         light_.cache = std::make_unique<LightCache>(scene.mesh, scene.tracer, solution);
     }
 
@@ -86,7 +89,10 @@ class Gathering {
     [[nodiscard]] GatheredLight finish();
 
   private:
-    [[nodiscard]] ReadError learn(std::span<const TargetPart> target, std::uint64_t seed);
+    [[nodiscard]] bool find_sensors(std::span<const NamedPoint> points);
+    void log_end_of_points(std::size_t points) const;
+    [[nodiscard]] ReadError learn(std::span<const TargetPart> target, std::uint64_t seed,
+                                  std::optional<double> seconds = {});
     template <class Gather, class Judge>
     void gather_until_right(const std::string& what, const ReadError& read, const Gather& gather,
                             const Judge& judge, std::uint64_t seed);
@@ -105,14 +111,19 @@ class Gathering {
     Statistics& statistics_;
     Workers workers_;
     PictureTime time_;
+    /// The light at points may take as long as the solution may, and the rays that it leaves.
+    const StopRule& limits_;
+    Stopwatch started_;
     double error_;
     GatheredLight light_;
     std::optional<Errors> errors_; ///< the larger ones of points and of the picture
 };
 
-ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t seed) {
-    const LearnOptions options =
+ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t seed,
+                           std::optional<double> seconds) {
+    LearnOptions options =
         learn_options(settings_, share_of_read * error_, seed, solution_, statistics_);
+    options.seconds = seconds;
     const Stopwatch watch;
     const ReadError found = light_.cache->learn(target, options, workers_, monitor_.interrupted);
     statistics_.rays_learn += found.rays;
@@ -168,12 +179,60 @@ void Gathering::gather_until_right(const std::string& what, const ReadError& rea
     add(errors);
 }
 
+/// Finds the faces that points lie on. Returns whether it came to the end before a signal.
+bool Gathering::find_sensors(std::span<const NamedPoint> points) {
+    constexpr std::size_t points_per_chunk = 1024;
+    light_.sensors.resize(points.size());
+    std::atomic<bool> is_over{false};
+    workers_.for_chunks(points.size(), points_per_chunk, [&](std::size_t begin, std::size_t end) {
+        if (is_over || time_.is_over()) {
+            is_over = true;
+            return;
+        }
+        for (std::size_t k = begin; k < end; ++k)
+            light_.sensors[k] =
+                sensor_at(scene_.mesh, scene_.tracer,
+                          scene_.mesh.frame().to_local(points[k].position), points[k].normal);
+    });
+    return !is_over;
+}
+
+/// Logs why rays ended before the light at points was as exact as asked for.
+void Gathering::log_end_of_points(std::size_t points) const {
+    const LightAtPoints& found = light_.points;
+    std::string text;
+    switch (found.end) {
+    case PointsEnd::right:
+        return;
+    case PointsEnd::gave_up:
+        if (found.lights.empty()) // no table is written
+            return;
+        text = "interrupted";
+        break;
+    case PointsEnd::rays:
+        text = "--max-rays ended it after " + short_counted(found.rays, "ray", "rays");
+        break;
+    case PointsEnd::time:
+        text = "it took as long as --time lets it";
+        break;
+    case PointsEnd::patience:
+        text = "more rays did not reduce its noise, and it ended after " +
+               duration(default_patience) + "; --time or --max-rays lets it go on";
+        break;
+    }
+    text = "the light at points: " + text;
+    if (found.lights.size() < points)
+        text += "; the rows of " + grouped(points - found.lights.size()) + " of " +
+                grouped(points) + " points hold no light";
+    else
+        text += "; its noise is " + percent(found.noise);
+    log_line(settings_.verbosity, Verbosity::normal, "warning: " + text);
+}
+
 void Gathering::find_points(std::span<const NamedPoint> points) {
-    for (const NamedPoint& point : points)
-        light_.sensors.push_back(sensor_at(scene_.mesh, scene_.tracer,
-                                           scene_.mesh.frame().to_local(point.position),
-                                           point.normal));
-    Errors errors{learn(parts_of(light_.sensors), seed_of(3))};
+    if (!find_sensors(points))
+        return;
+    Errors errors{learn(parts_of(light_.sensors), seed_of(3), limits_.seconds)};
     const Stopwatch watch;
     // The noise of few points is hardly known, and so its bound is larger.
     const double in_doubt = 1 + 1 / std::sqrt(double(std::max<std::size_t>(points.size(), 1)));
@@ -182,10 +241,18 @@ void Gathering::find_points(std::span<const NamedPoint> points) {
                                   std::isfinite(errors.read.error) ? errors.read.error : 0,
                               .seed = seed_of(2),
                               .give_up = [this] { return time_.is_over(); }};
+    if (limits_.seconds)
+        options.seconds = std::max(*limits_.seconds - started_.seconds(), 0.0);
+    if (limits_.rays)
+        options.max_all_rays =
+            *limits_.rays - std::min(*limits_.rays, rays_spent(solution_, statistics_));
+    if (!limits_.seconds && !limits_.rays)
+        options.patience = default_patience;
     if (settings_.gather)
         options.rays = PointSettings::rays_per_gather_ray * *settings_.gather;
     light_.points = light_at(light_.sensors, scene_.mesh, scene_.tracer, light_.cache->light(),
                              options, workers_);
+    log_end_of_points(points.size());
     errors.noise = light_.points.noise;
     errors.noise_uncertainty = light_.points.noise_uncertainty;
     statistics_.rays_gather += light_.points.rays;

@@ -11,6 +11,9 @@ namespace hemilux {
 
 struct Solution;
 
+/// Returns the rays of the solution and of all that the statistics count.
+[[nodiscard]] std::uint64_t rays_spent(const Solution& solution, const Statistics& statistics);
+
 /// Returns the options to learn light to this error [-], by the rays that --max-rays leaves after
 /// those of the solution and all that the statistics count.
 [[nodiscard]] LearnOptions learn_options(const SolveSettings& settings, double error,

@@ -119,6 +119,8 @@ FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
     found.source =
         std::make_unique<gltf::LitSource>(path, memory_guard(path, settings.scene.memory),
                                           settings.scene.outside, std::move(origins));
+    constexpr double copies = 4; // buffers, as one, and both as they are written
+    memory_guard(path, settings.scene.memory)(copies * found.source->bytes());
     const std::vector<ChartSide> sides = fronts_of_file(mesh, found.source->origins());
     const std::size_t sets = found.source->texcoord_sets(), asked = bake.set.value_or(1);
     std::string fault;

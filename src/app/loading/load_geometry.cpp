@@ -8,11 +8,16 @@
 namespace hemilux {
 
 LoadedGeometry load_geometry(const SceneSettings& settings, const RunFiles& files,
-                             const SolveOptions& options, Verbosity verbosity) {
+                             const SolveOptions& options, const GeometryUse& use,
+                             Verbosity verbosity) {
+    check_memory_to_read(settings.path, settings.memory);
     ReadResult read = load_scene(settings, files);
     log_warnings(verbosity, read.warnings);
     if (read.scene.facets.empty())
         throw InputError(settings.path, "there is no face with an area");
+    MemoryNeed need = memory_need(read.scene, settings.mesh, options, {});
+    need.results = use.bytes(patches_of(read.scene, settings.mesh));
+    check_memory(need, settings.memory, settings.path, use.advice);
     FileView view = view_of_file(settings.path, read);
     Mesh mesh = divide_with_sides(std::move(read.scene), settings, options, verbosity).mesh;
     log_line(verbosity, Verbosity::verbose, mesh_text(mesh));

@@ -36,9 +36,10 @@ constexpr double bytes_per_solution = 241;
 constexpr std::uint64_t default_transport = std::uint64_t{5} << 29;
 /// The bytes of corners, planes and boxes of both sides of a facet, and of its edges.
 constexpr double bytes_of_analysis = 350;
-/// The bytes per pixel: the picture, its bytes, the rows that are compressed, and the file. For
-/// `compare` there are the reference, the method and their difference.
-constexpr double bytes_per_pixel = 26, bytes_per_compared_pixel = 56;
+/// The bytes per pixel: the picture, that of emission and the list by which the exposure is chosen;
+/// or its numbers once more and a file that grows. For `compare` there are the reference, the
+/// method and their difference.
+constexpr double bytes_per_pixel = 36, bytes_per_compared_pixel = 64;
 /// The bytes for the light of a pixel in its parts and of more surfaces at edges, and for a quarter
 /// of a point at which indirect light is gathered.
 constexpr double bytes_per_gathered_pixel = 118;
@@ -250,15 +251,26 @@ void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> 
 }
 
 void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
-                  const std::string& path) {
+                  const std::string& path, const std::string& advice) {
     if (!limit || need.all() <= static_cast<double>(*limit))
         return;
-    throw std::runtime_error(
-        path + ": needs about " + rounded(need.all()) + " (scene " + rounded(need.scene) +
-        ", patches " + rounded(need.mesh) + ", tree " + rounded(need.tree) + ", method " +
-        rounded(need.method) + ", results " + rounded(need.results) + "), and --memory is " +
-        rounded(static_cast<double>(*limit)) +
-        "; a larger --max-edge, fewer --rays, a smaller --size or --no-gather need less");
+    throw std::runtime_error(path + ": needs about " + rounded(need.all()) + " (scene " +
+                             rounded(need.scene) + ", patches " + rounded(need.mesh) + ", tree " +
+                             rounded(need.tree) + ", method " + rounded(need.method) +
+                             ", results " + rounded(need.results) + "), and --memory is " +
+                             rounded(static_cast<double>(*limit)) + "; " + advice);
+}
+
+std::function<void(double bytes)> memory_guard(const MemoryNeed& need,
+                                               std::optional<std::uint64_t> limit,
+                                               const std::string& path, const std::string& advice) {
+    if (!limit)
+        return {};
+    return [need, limit, path, advice](double bytes) {
+        MemoryNeed grown = need;
+        grown.results += bytes;
+        check_memory(grown, limit, path, advice);
+    };
 }
 
 } // namespace hemilux

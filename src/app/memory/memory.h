@@ -37,7 +37,8 @@ struct MemoryNeed {
 
 /// Returns the most patches that a division of the faces will make.
 [[nodiscard]] double patches_of(const Scene& scene, const MeshOptions& options);
-/// Returns the need of these methods side by side, after `before` has run alone.
+/// Returns the need of these methods side by side (none: of a command that solves nothing), after
+/// `before` has run alone.
 [[nodiscard]] MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh,
                                      const SolveOptions& options,
                                      std::span<const Method* const> methods,
@@ -69,8 +70,16 @@ void bound_inputs(std::optional<std::uint64_t> limit);
 /// Does the same check before the file is read, by its size.
 void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> limit);
 /// Checks the need before the faces are divided. Throws std::runtime_error, which says what is
-/// needed for what.
+/// needed for what, and `advice` on what needs less.
 void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
-                  const std::string& path);
+                  const std::string& path,
+                  const std::string& advice = "a larger --max-edge, fewer --rays, a smaller "
+                                              "--size or --no-gather need less");
+/// Returns a check of lists whose length is known only as they are found: it throws
+/// std::runtime_error where the run needs more than the limit with so many bytes of them.
+[[nodiscard]] std::function<void(double bytes)> memory_guard(const MemoryNeed& need,
+                                                             std::optional<std::uint64_t> limit,
+                                                             const std::string& path,
+                                                             const std::string& advice);
 
 } // namespace hemilux

@@ -242,7 +242,8 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
     WriteReport report;
     if (!settings.points.output.empty())
         report.attempt(settings.points.output, [&] {
-            write_points(settings.points.output, results.mesh, results.points, results.gathered);
+            write_points(settings.points.output, results.mesh, results.points, results.gathered,
+                         Workers(results.options.threads));
         });
     const double seconds_points = writing.seconds();
     std::vector<WriteReport> reports(settings.outputs.size());

@@ -26,8 +26,7 @@ void OutsideFiles::check(const std::string& file, const std::string& where,
     if ((rule_ == Outside::reported && has_warned_) || !lies_outside(file, scene_))
         return;
     constexpr std::size_t longest_name = 100;
-    const std::string text =
-        what + " \"" + shortened(file, longest_name) + "\" lies outside the scene's folder";
+    const std::string text = what + " \"" + shortened(file, longest_name) + "\"" + outside_warning;
     if (rule_ == Outside::refused)
         throw InputError(where, text + ", and --no-outside-files refuses it");
     has_warned_ = true;

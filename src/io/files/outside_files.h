@@ -12,6 +12,9 @@ enum class Outside {
     refused
 };
 
+/// The part of the warning that is the same for all.
+inline constexpr const char* outside_warning = " lies outside the scene's folder";
+
 class OutsideFiles {
   public:
     /// `scene` is the path of the file that names others. `warnings` must outlive this object.

@@ -3,7 +3,6 @@
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/files/little_endian.h"
-#include "io/gltf/document/uri.h"
 #include "io/gltf/instances.h"
 #include "io/gltf/scene_meshes.h"
 #include "io/meshes/glb_container.h"
@@ -12,12 +11,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
-#include <system_error>
 #include <utility>
 
 namespace hemilux {
@@ -31,11 +30,29 @@ constexpr const char* instancing_extension = "EXT_mesh_gpu_instancing";
 constexpr int float_component = 5126, uint_component = 5125;
 constexpr int linear_filter = 9729, clamp_to_edge = 33071, triangles_mode = 4;
 
+/// Returns a whole number, which may be written as 2.0; nothing for any other value.
+std::optional<std::size_t> whole_number(const Json& value) {
+    constexpr double limit = 1LL << 53; // doubles hold all up to it
+    const double number = value.is_number() ? value.get<double>() : -1;
+    if (!(number >= 0 && number <= limit && std::floor(number) == number))
+        return std::nullopt;
+    return static_cast<std::size_t>(number);
+}
+
+std::optional<std::size_t> whole_of(const Json& object, const char* key) {
+    return object.is_object() && object.contains(key) ? whole_number(object[key]) : std::nullopt;
+}
+
 class Writer {
   public:
     Writer(LitSource& source, const LightmapOfFile& lightmap)
         : source_(source), lightmap_(lightmap), root_(Json::parse(source.container().json)),
-          meshes_of_file_(root_.value("meshes", Json::array())) {}
+          meshes_of_file_(root_.value("meshes", Json::array())) {
+        // Members lie in one array: with room for all that are added, references to them stay
+        // valid.
+        constexpr std::size_t most_added = 16;
+        root_.get_ref<Json::object_t&>().reserve(root_.size() + most_added);
+    }
 
     /// Makes the JSON and the binary chunk.
     void make() {
@@ -99,8 +116,7 @@ void Writer::use_extension(const char* name) {
 
 std::size_t Writer::accessor_of(const Json& attribute, const PrimitiveOrigin& of) const {
     const std::size_t count = source_.document().accessors.size();
-    const std::size_t number =
-        attribute.is_number_unsigned() ? attribute.get<std::size_t>() : count;
+    const std::size_t number = whole_number(attribute).value_or(count);
     const auto vertices = [&] { return source_.document().accessors[number].count; };
     const Index& position = source_.primitive_of(of).position;
     if (number >= count || vertices() < source_.document().accessors[*position].count)
@@ -123,12 +139,10 @@ void Writer::join_buffers() {
     if (buffers.empty())
         buffers.push_back(Json::object());
     const auto move = [&](Json& view) {
-        if (!view.contains("buffer") || !view["buffer"].is_number_unsigned())
-            return;
-        const auto b = view["buffer"].get<std::size_t>();
+        const std::size_t b = whole_of(view, "buffer").value_or(0);
         if (b == 0 || b >= begin.size())
             return;
-        view["byteOffset"] = view.value("byteOffset", std::size_t{0}) + begin[b];
+        view["byteOffset"] = whole_of(view, "byteOffset").value_or(0) + begin[b];
         view["buffer"] = 0;
     };
     for (Json& view : array_of("bufferViews")) {
@@ -144,18 +158,12 @@ void Writer::join_buffers() {
 
 /// Pictures beside the file would be lost where the new file lies elsewhere.
 void Writer::embed_pictures() {
-    if (!root_.contains("images"))
-        return;
-    for (std::size_t i = 0; i < root_["images"].size(); ++i) {
+    for (std::size_t i = 0; i < source_.pictures().size(); ++i) {
+        const std::string& name = source_.pictures()[i];
+        if (name.empty())
+            continue;
         Json& image = root_["images"][i];
-        if (!image.contains("uri") || image["uri"].get<std::string>().starts_with("data:"))
-            continue;
-        const UriContent content = content_of_uri(image["uri"].get<std::string>(), source_.path(),
-                                                  "/images/" + std::to_string(i) + "/uri");
-        if (std::error_code error; !std::filesystem::is_regular_file(content.file, error))
-            continue;
-        const std::string bytes = read_input(content.file, InputKind::regular, {});
-        const std::string_view name(content.file);
+        const std::string bytes = read_input(name, InputKind::regular, {});
         image["bufferView"] = add_view(bytes);
         if (!image.contains("mimeType"))
             image["mimeType"] = bytes.starts_with("\x89PNG") ? "image/png"
@@ -163,7 +171,7 @@ void Writer::embed_pictures() {
                                 : name.ends_with(".ktx2")    ? "image/ktx2"
                                                              : "image/jpeg";
         if (!image.contains("name"))
-            image["name"] = std::filesystem::path(content.file).stem().string();
+            image["name"] = std::filesystem::path(name).stem().string();
         image.erase("uri");
     }
 }

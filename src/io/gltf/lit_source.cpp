@@ -2,13 +2,17 @@
 
 #include "bvh/tracer.h"
 #include "io/files/error.h"
+#include "io/files/input_file.h"
+#include "io/gltf/document/uri.h"
 #include "io/gltf/scene_meshes.h"
 #include "io/lightmaps/chart_regions.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <numeric>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -18,6 +22,18 @@ namespace {
 Document document_of(const Container& container, const std::string& path) {
     const JsonDocument json(container.json, path);
     return read_document(json.root());
+}
+
+/// Returns the file of an image; empty where it has none that can be read, and stays as it is.
+std::string file_of(const ImageInfo& image, const std::string& scene, const std::string& place) {
+    if (image.uri.empty() || image.uri.starts_with("data:"))
+        return "";
+    try {
+        const UriContent content = content_of_uri(image.uri, scene, place);
+        return is_input(content.file, InputKind::regular) ? content.file : "";
+    } catch (const InputError&) { // as of pages of the web
+        return "";
+    }
 }
 
 /// Returns which corner of a facet is this vertex of the scene.
@@ -82,6 +98,24 @@ LitSource::LitSource(const std::string& path, const ReadGuard& guard, Outside ou
                                          place_of(origin.mesh, origin.primitive)) != origin.faces)
             throw InputError(path_, "the file has changed since it was read");
     }
+    for (const ImageInfo& image : document_.images) {
+        const std::string place = "/images/" + std::to_string(pictures_.size()) + "/uri";
+        pictures_.push_back(file_of(image, path_, place));
+        if (!pictures_.back().empty())
+            outside_.check(pictures_.back(), path_ + ": " + place, "texture");
+    }
+}
+
+double LitSource::bytes() const {
+    auto bytes = static_cast<double>(container_.content.size());
+    for (const auto& buffer : document_.buffers)
+        bytes += static_cast<double>(buffer.length);
+    for (const std::string& picture : pictures_) {
+        std::error_code error;
+        const auto size = std::filesystem::file_size(picture, error);
+        bytes += picture.empty() || error ? 0 : static_cast<double>(size);
+    }
+    return bytes;
 }
 
 Triangles LitSource::triangles_of(const PrimitiveOrigin& origin, std::size_t sets) {

@@ -26,8 +26,7 @@ namespace gltf {
 class LitSource {
   public:
     /// Reads the file. `origins` say what was read from it before. Throws InputError, also where
-    /// the file has changed since. Files outside of its folder were reported when it was read
-    /// first.
+    /// the file has changed since, and for pictures outside of its folder where these are refused.
     LitSource(const std::string& path, const ReadGuard& guard, Outside outside,
               std::vector<PrimitiveOrigin> origins);
 
@@ -39,6 +38,13 @@ class LitSource {
     [[nodiscard]] const Primitive& primitive_of(const PrimitiveOrigin& origin) const {
         return document_.meshes[origin.mesh].primitives[origin.primitive];
     }
+    /// Returns the path of each image that lies in a file of its own, which will be part of what is
+    /// written; empty for the others.
+    [[nodiscard]] const std::vector<std::string>& pictures() const { return pictures_; }
+    /// Returns the bytes of the file, its buffers and its pictures.
+    [[nodiscard]] double bytes() const;
+    /// Returns what was noticed: the first picture outside of the file's folder.
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return reported_; }
     /// Returns the triangles of an origin with texture coordinates of so many sets.
     [[nodiscard]] Triangles triangles_of(const PrimitiveOrigin& origin, std::size_t sets);
     /// Returns the number of the sets that the primitive with most of them has.
@@ -54,6 +60,7 @@ class LitSource {
     Buffers buffers_;
     TriangleReader triangles_;
     std::vector<PrimitiveOrigin> origins_;
+    std::vector<std::string> pictures_;
 };
 
 /// The facets of the scene by face; none where a face has no area.

@@ -127,6 +127,7 @@ double auto_exposure(const Image& image, const Image& emission) {
     constexpr double aim = 0.8;
     constexpr float rounding = 1e-5f; // of the difference of two like numbers
     std::vector<float> lit;
+    lit.reserve(image.pixels.size());
     for (std::size_t k = 0; k < image.pixels.size(); ++k) {
         const float all = luminance(image.pixels[k]);
         const float y = emission.pixels.empty() ? all : all - luminance(emission.pixels[k]);

@@ -7,6 +7,7 @@
 #include "io/files/text_reader.h"
 #include "io/files/text_words.h"
 #include "io/results/csv.h"
+#include "parallel/workers.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
@@ -67,6 +68,27 @@ NamedPoint point_from(const std::string& path, std::size_t line, std::string_vie
     return {{x, y, z}, normal, direction_of(normal), line};
 }
 
+/// Appends the row of a point; its light is empty where there is none.
+void append_row(const Mesh& mesh, std::uint64_t number, const NamedPoint& point,
+                const Sensor& sensor, const PointLight* light, std::string& text) {
+    csv::append_number(text, number);
+    csv::append_fields(text, point.position);
+    csv::append_fields(text, point.given_normal);
+    if (!light) {
+        text += ",,,,,,,,,\n";
+        return;
+    }
+    csv::append_fields(text, light->irradiance);
+    if (sensor.patch != none) {
+        const Colours here = colours_at(mesh, mesh.patches()[sensor.patch], sensor.at.position);
+        csv::append_fields(text, here.emission + here.reflectance * light->irradiance);
+    } else {
+        text += ",,,";
+    }
+    csv::append_fields(text, light->standard_error);
+    text += '\n';
+}
+
 } // namespace
 
 std::vector<NamedPoint> read_points(const std::string& path) {
@@ -95,26 +117,24 @@ std::vector<NamedPoint> read_points(const std::string& path) {
 
 void write_points_table(const std::string& path, const Mesh& mesh,
                         std::span<const NamedPoint> points, std::span<const Sensor> sensors,
-                        std::span<const PointLight> lights) {
+                        std::span<const PointLight> lights, const Workers& workers) {
+    constexpr std::size_t rows_per_text = 256, texts_at_a_time = 64;
     AtomicFile file(path);
     file.write(points_header);
-    std::string text;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        text.clear();
-        csv::append_number(text, std::uint64_t{k});
-        csv::append_fields(text, points[k].position);
-        csv::append_fields(text, points[k].given_normal);
-        csv::append_fields(text, lights[k].irradiance);
-        if (sensors[k].patch != none) {
-            const Colours here =
-                colours_at(mesh, mesh.patches()[sensors[k].patch], sensors[k].at.position);
-            csv::append_fields(text, here.emission + here.reflectance * lights[k].irradiance);
-        } else {
-            text += ",,,";
-        }
-        csv::append_fields(text, lights[k].standard_error);
-        text += '\n';
-        file.write(text);
+    std::array<std::string, texts_at_a_time> texts;
+    for (std::size_t first = 0; first < points.size(); first += texts_at_a_time * rows_per_text) {
+        const auto row = [&](std::size_t text) {
+            return std::min(first + text * rows_per_text, points.size());
+        };
+        workers.for_each_in_order(
+            texts.size(),
+            [&](std::size_t k) {
+                texts[k].clear();
+                for (std::size_t i = row(k); i < row(k + 1); ++i)
+                    append_row(mesh, i, points[i], sensors[i],
+                               i < lights.size() ? &lights[i] : nullptr, texts[k]);
+            },
+            [&](std::size_t k) { file.write(texts[k]); });
     }
     file.commit();
 }

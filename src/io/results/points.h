@@ -12,6 +12,7 @@
 namespace hemilux {
 
 class Mesh;
+class Workers;
 
 /// A row of a file of points, in world units [m].
 struct NamedPoint {
@@ -28,9 +29,9 @@ struct NamedPoint {
 
 /// Writes one row per point: its number from 0, and its position and normal as they were read. Then
 /// follow the irradiance, the radiosity of the face that the point lies on, and the standard error
-/// of the irradiance [W/m2]. Throws OutputError.
+/// of the irradiance [W/m2]; these are empty beyond the lights. Throws OutputError.
 void write_points_table(const std::string& path, const Mesh& mesh,
                         std::span<const NamedPoint> points, std::span<const Sensor> sensors,
-                        std::span<const PointLight> lights);
+                        std::span<const PointLight> lights, const Workers& workers);
 
 } // namespace hemilux

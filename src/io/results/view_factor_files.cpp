@@ -34,6 +34,11 @@ void for_row(const FactorTable& table, std::uint32_t i, const Use& use) {
     }
 }
 
+/// Returns at least the number of entries of all rows.
+std::size_t entries_of(const FactorTable& table) {
+    return table.factors.factor.size() + table.columns.size() * table.factors.rows();
+}
+
 void add(std::string& line, double value) {
     line += ',';
     csv::append_number(line, value);
@@ -48,6 +53,7 @@ template <class Values>
 void add_array(StoredZip& zip, const std::string& name, const std::string& type,
                const Values& values) {
     std::string bytes;
+    bytes.reserve(values.size() * sizeof values[0]);
     for (const auto value : values)
         append_number(bytes, value);
     zip.add(name + ".npy", {npy_header(type, std::to_string(values.size()) + ","), bytes});
@@ -141,6 +147,10 @@ void write_factor_npz(const std::string& path, const FactorTable& table, const P
     std::vector<std::uint64_t> begin(1, 0);
     std::vector<std::uint32_t> column;
     std::vector<double> factor, error;
+    const std::size_t most = entries_of(table);
+    column.reserve(most);
+    factor.reserve(most);
+    error.reserve(most);
     for (std::uint32_t i = 0; i < table.factors.rows(); ++i) {
         for_row(table, i, [&](std::uint32_t, std::uint32_t j, double f, double e) {
             column.push_back(j);
@@ -152,8 +162,8 @@ void write_factor_npz(const std::string& path, const FactorTable& table, const P
     begin.resize(rows + 1, column.size());
     check_interrupt(table);
     StoredZip zip(path);
-    constexpr std::uint64_t most = 0x7fffffff;
-    if (column.size() <= most) { // SciPy wants both of one type
+    constexpr std::uint64_t largest = 0x7fffffff;
+    if (column.size() <= largest) { // SciPy wants both of one type
         add_array(zip, "indices", "<i4", column);
         std::vector<std::uint32_t> short_begin;
         for (const std::uint64_t place : begin)
@@ -214,6 +224,8 @@ void write_udales_sky(const std::string& path, const FactorTable& table) {
 
 void write_dense_factors(const std::string& path, const FactorTable& table) {
     SparseMatrix matrix;
+    matrix.column.reserve(entries_of(table));
+    matrix.value.reserve(entries_of(table));
     matrix.row_begin.push_back(0);
     for (std::uint32_t i = 0; i < table.size(); ++i) {
         if (i < table.factors.rows())

@@ -105,3 +105,22 @@ TEST_CASE("what --points cannot be is said at once") {
     CHECK_THAT(twice.err, Contains("can be read once"));
     CHECK_FALSE(place.has("a.csv"));
 }
+
+TEST_CASE("rows of points that --max-rays leaves hold no light, and it is said") {
+    const Workplace place;
+    place.write_room();
+    std::string points;
+    for (int i = 0; i < 10'000; ++i)
+        points += ".5 .5 .5 0 0 1\n";
+    place.write("p.txt", points);
+    const auto run = place.hemilux("solve room.obj --divide none --max-rays 400000 --points p.txt "
+                                   "--points-output light.csv");
+    CHECK(run.code == 0);
+    CHECK_THAT(run.err, Contains("--max-rays ended it after"));
+    CHECK_THAT(run.err, Contains(" of 10 000 points hold no light"));
+    const std::string table = place.read("light.csv");
+    const auto rows = rows_of(table);
+    REQUIRE(rows.size() == 10'001);
+    CHECK(std::stod(rows[1][7]) > 0);
+    CHECK(table.ends_with("\n9999,0.5,0.5,0.5,0,0,1,,,,,,,,,\n"));
+}

@@ -141,6 +141,66 @@ TEST_CASE("no run takes more memory than the least --memory that lets it begin",
     check_peak(place, arguments);
 }
 
+/// Runs it with more and more memory until it is not refused: it then takes no more than that.
+void check_some_bound(const Workplace& place, const std::string& arguments) {
+    constexpr double first = 12.5e6, growth = 1.5, enough = 1e9;
+    for (double limit = first; limit < enough; limit *= growth) {
+        Running bounded(place, arguments + " --memory " + std::to_string(static_cast<long>(limit)),
+                        place.path("stderr.txt").c_str());
+        const int code = bounded.wait();
+        if (code == 3) {
+            const std::string message = place.read("stderr.txt");
+            CHECK_THAT(message, Contains(": needs ") && Contains(", and --memory is "));
+            continue;
+        }
+        CHECK(code == 0);
+        CHECK(limit > first); // some were refused
+        CHECK(bounded.peak_bytes() < limit);
+        return;
+    }
+    FAIL("a gigabyte is not enough");
+}
+
+TEST_CASE("no command that solves nothing takes more than --memory", "[slow]") {
+    const Workplace place;
+    place.write_room();
+    SECTION("info, form factors and densities") {
+        const std::string run =
+            GENERATE("info room.obj --json", "formfactors room.obj --rays 64 -q -o f.csv",
+                     "formfactors room.obj --rays 1024 -q -o f.npy",
+                     "formfactors room.obj --factors hemicube:32 -q -o f.csv",
+                     "density room.obj -q -o d.svg", "density room.obj -q -o d.png --size 640x480",
+                     "density room.obj -q --depth 4 --threshold 0 --rays 20000 -o d.svg -o d.png",
+                     "density room.obj -q --method hemisphere-1997 -o d.svg");
+        const std::string size = GENERATE(" --max-edge .2", " --max-edge .1", " --max-edge .05");
+        CAPTURE(run, size);
+        check_some_bound(place, run + size + " >info.txt");
+    }
+    SECTION("exact factors and view factors") {
+        const std::string run =
+            GENERATE("formfactors room.obj --exact --rays 64 -q -o f.csv",
+                     "viewfactors room.obj -q --error 5% -o f.npz",
+                     "viewfactors room.obj -q --error 5% --by group --sky -o f.npy -o f.csv",
+                     "viewfactors room.obj -q --error 5% -o f.vtu --legend f.csv",
+                     "viewfactors room.obj -q --of sky -o f.vtu");
+        const std::string size = GENERATE(" --max-edge .4", " --max-edge .3", " --max-edge .2");
+        CAPTURE(run, size);
+        check_some_bound(place, run + size);
+    }
+}
+
+TEST_CASE("many points take no more than the least --memory that lets them begin", "[slow]") {
+    const Workplace place;
+    place.write_room();
+    const int count = GENERATE(10'000, 100'000, 300'000);
+    std::string rows;
+    for (int i = 0; i < count; ++i)
+        rows += ".5 .5 .5 0 0 1\n";
+    place.write("p.txt", rows);
+    check_some_bound(place, "solve room.obj --divide none -q --max-rays 200000 --points p.txt "
+                            "--points-output light.csv");
+}
+
 TEST_CASE("no picture takes more memory than the least --memory that lets it begin", "[slow]") {
     const Workplace place;
     place.write_room();

@@ -7,10 +7,12 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 using namespace hemilux::test;
+using Catch::Contains;
 using test::check_fails;
 using test::Workplace;
 using Json = nlohmann::json;
@@ -226,4 +228,52 @@ TEST_CASE("a baked file can be shown by any viewer, and is the same for any numb
         CHECK_FALSE(material.contains("emissiveFactor"));
     }
     CHECK(json["textures"][0]["extras"]["hemilux"]["bake"] == "radiosity");
+}
+
+TEST_CASE("bake takes whole numbers that are written as fractions, and keeps what it cannot read") {
+    const Workplace place;
+    Json scene = Json::parse(SmallRoom{}.text());
+    Json& views = scene["bufferViews"];
+    REQUIRE(scene["buffers"].size() == 1);
+    // A second buffer that holds all, named by 1.0.
+    scene["buffers"].push_back(scene["buffers"][0]);
+    scene["buffers"][0] = {{"byteLength", 4}, {"uri", "data:;base64,AAAAAA=="}};
+    for (Json& view : views)
+        view["buffer"] = 1.0;
+    views[0]["extensions"]["X_odd"] = {{"buffer", "none"}, {"byteOffset", Json::array()}};
+    views[1]["extensions"] = "odd";
+    scene["images"] = {{{"uri", "http://example.org/a.png"}}, {{"uri", "none.png"}}};
+    for (Json& mesh : scene["meshes"])
+        for (Json& primitive : mesh["primitives"])
+            for (Json& accessor : primitive["attributes"])
+                accessor = accessor.get<double>();
+    place.write("room.gltf", scene.dump());
+    const auto run = place.hemilux(std::string("bake room.gltf -o lit.glb") + fast);
+    CAPTURE(run.err);
+    REQUIRE(run.code == 0);
+    const Glb lit = glb_from(place.read("lit.glb"));
+    for (const Json& view : lit.json["bufferViews"])
+        CHECK(view["buffer"] == 0);
+    CHECK(lit.json["images"][0]["uri"] == "http://example.org/a.png");
+    CHECK(lit.json["images"][1]["uri"] == "none.png");
+    CHECK(lit.json["bufferViews"][0]["extensions"]["X_odd"]["buffer"] == "none");
+    CHECK(floats_of(lit, 0) == std::vector<float>{-1, 0, 1, 1, 0, 1, 1, 0, -1, -1, 0, -1});
+}
+
+TEST_CASE("bake embeds no picture from outside the file's folder in silence") {
+    const Workplace place;
+    std::filesystem::create_directory(place.path("inner"));
+    place.write("secret.png", "no picture that is looked at");
+    Json scene = Json::parse(SmallRoom{}.text());
+    scene["images"] = {{{"uri", "../secret.png"}}};
+    place.write("inner/room.gltf", scene.dump());
+    const auto refused =
+        place.hemilux(std::string("bake inner/room.gltf -o lit.glb --no-outside-files") + fast);
+    CHECK(refused.code == 2);
+    CHECK_THAT(refused.err, Contains("/images/0/uri") && Contains("--no-outside-files refuses it"));
+    CHECK_FALSE(place.has("lit.glb"));
+    const auto warned = place.hemilux("bake inner/room.gltf -o lit.glb --error 10% --max-rays "
+                                      "200000 --gather 4 --lightmap 64");
+    CHECK(warned.code == 0);
+    CHECK_THAT(warned.err, Contains("lies outside the scene's folder"));
 }

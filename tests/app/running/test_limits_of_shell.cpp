@@ -17,8 +17,15 @@ const std::vector<std::string>& commands() {
         "compare room.obj --methods stratified --runs 1 --budget-rays 1e4 --reference-error 0.2 -q "
         "-o c --size 16x12",
         "density room.obj -q -o d.svg",
-        "formfactors room.obj --rays 64 -q -o f.csv"};
+        "formfactors room.obj --rays 64 -q -o f.csv",
+        "viewfactors room.obj --error 10% -q -o f.npz",
+        "solve room.obj --error 30% -q --points points --points-output p.csv"};
     return all;
+}
+
+void write_inputs(const Workplace& place) {
+    place.write_room();
+    place.write("points", ".5 .5 .5 0 0 1\n");
 }
 
 /// The program ends by itself: with success, or with one message and exit code 3.
@@ -34,7 +41,7 @@ void check(const Workplace& place, const std::string& limit, const std::string& 
 
 TEST_CASE("on a small stack every command works", "[slow]") {
     const Workplace place;
-    place.write_room();
+    write_inputs(place);
     for (const std::string& command : commands())
         for (const char* const limit : {"-s 64", "-s 256"}) {
             CAPTURE(limit, command);
@@ -48,7 +55,7 @@ TEST_CASE("on a small stack every command works", "[slow]") {
 
 TEST_CASE("few files, short files and little memory end with a message or not at all", "[slow]") {
     const Workplace place;
-    place.write_room();
+    write_inputs(place);
     for (const std::string& command : commands()) {
         check(place, "-n 16", command);
         check(place, "-n 5", command);

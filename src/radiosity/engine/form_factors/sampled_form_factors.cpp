@@ -120,6 +120,11 @@ SparseMatrix SampledFormFactors::matrix() const {
     f.row_begin.push_back(0);
     const double samples = emitter_samples(rays_);
     const auto merged = merged_counts();
+    std::size_t entries = emitters_.size() * merged.size();
+    for (const auto& row : merged)
+        entries += row.size();
+    f.column.reserve(entries); // lists that grow would be there twice
+    f.value.reserve(entries);
     for (std::uint32_t i = 0; i < merged.size(); ++i) {
         double rest = 1 - lost_[i].escaped - lost_[i].absorbed; // of the row, for all but emitters
         for (std::size_t e = 0; e < emitters_.size(); ++e) {

@@ -9,6 +9,7 @@
 #include "radiosity/paper/solving/solver.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 
@@ -24,6 +25,9 @@ constexpr std::uint32_t min_probes = 2, max_probes = 32;
 /// A pair that needs no more rays than these is estimated by rays alone; so many are the least.
 constexpr double max_pair_rays = 24;
 constexpr std::uint32_t min_pair_rays = 4;
+
+/// Rays of pairs of one row that are traced together.
+constexpr std::size_t rays_at_a_time = 65'536;
 
 /// Pairs whose factors are this share of their tolerance are not looked for.
 constexpr double smallest_searched = .1;
@@ -57,6 +61,7 @@ class RowPairs {
     [[nodiscard]] double missed_chance(std::uint32_t i, const Candidate& pair, double exchange,
                                        double share) const;
     void estimate(std::uint32_t i, const Candidate& pair, std::vector<PairExchange>& pairs);
+    void trace_small(std::uint32_t i, std::vector<PairExchange>& pairs);
     void estimate_by_lines(std::uint32_t i, const Candidate& pair, double free,
                            std::vector<PairExchange>& pairs);
     void add(std::uint32_t i, const Candidate& candidate, double free, double share,
@@ -144,10 +149,18 @@ void RowPairs::probe(std::uint32_t i) {
 void RowPairs::find(std::uint32_t i, std::vector<PairExchange>& pairs, std::vector<float>& missed) {
     look_for(i);
     probe(i);
-    small_.clear();
     missed_.clear();
-    for (const Candidate& pair : candidates_)
+    for (const Candidate& pair : candidates_) {
         estimate(i, pair, pairs);
+        if (rays_.size() >= rays_at_a_time)
+            trace_small(i, pairs);
+    }
+    trace_small(i, pairs);
+    missed.assign(missed_.begin(), missed_.end());
+}
+
+/// Traces the rays of the pairs that are estimated by rays alone.
+void RowPairs::trace_small(std::uint32_t i, std::vector<PairExchange>& pairs) {
     work_.rays += rays_.size();
     rays_.trace([&](std::size_t k, const PairRays::Share& share) {
         const Small& small = small_[k];
@@ -164,7 +177,7 @@ void RowPairs::find(std::uint32_t i, std::vector<PairExchange>& pairs, std::vect
         pair.deviation = static_cast<float>(small.free * std::sqrt(p * (1 - p) / (n + 1)) / chance);
     });
     work_.ray_pairs += small_.size();
-    missed.assign(missed_.begin(), missed_.end());
+    small_.clear();
 }
 
 /// Adds a pair that was not estimated by rays alone.
@@ -283,6 +296,27 @@ void keep_higher(std::vector<std::vector<std::uint32_t>>& seen) {
     seen = std::move(higher);
 }
 
+/// Counts what is found, and asks whether it may be that much.
+class PairsMemory {
+  public:
+    explicit PairsMemory(const std::function<void(double bytes)>& ask) : ask_(ask) {}
+    void add_seen(std::size_t count) { add(per_seen * count); }
+    void add_pairs(std::size_t count) { add(per_pair * count); }
+
+  private:
+    /// A patch that was seen, in two lists, one of which grows; a pair in the list, as terms of
+    /// both rows and as factors of both.
+    static constexpr std::uint64_t per_seen = 12, per_pair = 128;
+
+    void add(std::uint64_t bytes) {
+        const std::uint64_t sum = bytes_ += bytes;
+        if (ask_)
+            ask_(static_cast<double>(sum));
+    }
+    const std::function<void(double bytes)>& ask_;
+    std::atomic<std::uint64_t> bytes_{0};
+};
+
 } // namespace
 
 FactorTolerance relative_above(double error, double least) {
@@ -304,6 +338,7 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
     }
     list.open.resize(patches);
     list.pairs.resize(patches);
+    PairsMemory memory(options.ask);
     std::vector<std::vector<std::uint32_t>> seen(patches);
     workers.for_chunks_with(
         patches, 16, [&] { return RowRays(mesh, tree, options.seed, options.up); },
@@ -312,6 +347,7 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
             for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
                 rays.trace(static_cast<std::uint32_t>(i), options.rays, view);
                 seen[i].assign(view.seen.begin(), view.seen.end());
+                memory.add_seen(view.seen.size());
                 list.open[i] = view.open;
             }
             monitor.rays += (end - begin) * options.rays;
@@ -326,6 +362,7 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
             for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
                 row.find(static_cast<std::uint32_t>(i), list.pairs[i], missed[i]);
                 list.pairs[i].shrink_to_fit();
+                memory.add_pairs(list.pairs[i].size());
             }
             const ExchangeWork& now = row.work();
             monitor.rays += now.rays - before.rays;

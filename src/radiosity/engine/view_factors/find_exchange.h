@@ -36,6 +36,9 @@ struct ExchangeOptions {
     FactorTolerance tolerance = relative_above(.01, 1e-3);
     std::uint64_t seed = 1;
     int up = 2; ///< axis that points to the sky
+    /// Is called as rows are found, from all threads, with the bytes that the pairs found so far
+    /// will take at the peak of summing and writing them. What it throws ends the work.
+    std::function<void(double bytes)> ask = {};
 };
 
 /// The work that it took.

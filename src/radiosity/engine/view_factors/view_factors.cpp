@@ -38,6 +38,9 @@ void sum_pairs(const ExchangeList& list, std::span<const std::uint32_t> row_of,
         terms[next[row]++] = {column, pair.exchange, deviation * deviation};
     });
     factors.row_begin.assign(1, 0);
+    factors.column.reserve(terms.size()); // lists that grow would be there twice
+    factors.factor.reserve(terms.size());
+    factors.standard_error.reserve(terms.size());
     for (std::size_t row = 0; row < rows; ++row) {
         const auto of_row = std::span(terms).subspan(begin[row], begin[row + 1] - begin[row]);
         std::ranges::stable_sort(of_row, {}, &Term::column);

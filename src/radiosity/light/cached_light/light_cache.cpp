@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 
 namespace hemilux {
@@ -178,6 +179,12 @@ ReadError LightCache::learn(std::span<const TargetPart> target, const LearnOptio
     std::uint64_t rays = 0, walks = 0;
     std::size_t next = first_walks;
     bool is_right = false;
+    const auto start = std::chrono::steady_clock::now();
+    // A round has twice the walks of all before it.
+    const auto would_end_late = [&] {
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        return options.seconds && 3 * elapsed.count() > *options.seconds;
+    };
     for (std::uint64_t number = 0; !target.empty(); ++number) {
         const std::uint64_t seed = hash_words({options.seed, number});
         const std::vector<TargetPart> some =
@@ -197,7 +204,7 @@ ReadError LightCache::learn(std::span<const TargetPart> target, const LearnOptio
         is_right = is_right || (number + 1 >= min_rounds && found.bound <= options.error);
         const std::uint64_t max_rays =
             std::isfinite(found.bound) ? options.max_rays : options.max_rays / share_of_unknown;
-        if ((is_right && is_known(found, options)) || 2 * rays > max_rays)
+        if ((is_right && is_known(found, options)) || 2 * rays > max_rays || would_end_late())
             break;
         next = number == 0 ? taken : 2 * taken;
     }

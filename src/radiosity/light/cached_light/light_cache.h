@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct LearnOptions {
     /// matters little beside `error`.
     double accuracy = 0;
     std::uint64_t max_rays = 30'000'000;
+    /// No round of walks is begun that would end later than this time [s], if there is an end.
+    std::optional<double> seconds = {};
 };
 
 /// The error of gathers over a target by what they read: RMS over its parts and channels, relative

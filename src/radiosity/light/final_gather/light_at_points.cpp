@@ -7,6 +7,7 @@
 #include "radiosity/paper/solving/stop_flag.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace hemilux {
@@ -18,8 +19,8 @@ constexpr unsigned gathers = 8;
 
 constexpr unsigned rays_of_round = FinalGather::usual_random_rays;
 
-/// The number of rays traced before give_up is asked again: a fraction of a second.
-constexpr std::size_t rays_per_block = 1 << 20;
+/// The number of rays traced before it is asked again whether to end: a fraction of a second.
+constexpr std::size_t rays_per_block = 1 << 18;
 
 /// The mean of the gathers of a point, and its variance.
 struct Gathered {
@@ -37,19 +38,46 @@ Gathered mean_of(std::span<const Vec3> estimates) {
     return mean;
 }
 
-/// Gathers at all sensors with so many rounds of rays in each of the gathers. The result is empty
-/// if it was given up.
+/// What the work has to ask before each block of points.
+class Limits {
+  public:
+    explicit Limits(const PointLightOptions& options) : options_(options) {}
+
+    /// Returns the reason to begin no more; `right` where there is none.
+    [[nodiscard]] PointsEnd reached(std::uint64_t rays) const {
+        if (options_.give_up && options_.give_up())
+            return PointsEnd::gave_up;
+        if (rays >= options_.max_all_rays)
+            return PointsEnd::rays;
+        return options_.seconds && elapsed() > *options_.seconds ? PointsEnd::time
+                                                                 : PointsEnd::right;
+    }
+    [[nodiscard]] bool has_lost_patience() const { return elapsed() > options_.patience; }
+
+  private:
+    [[nodiscard]] double elapsed() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+    const PointLightOptions& options_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Gathers at the sensors in order with so many rounds of rays in each of the gathers, until a
+/// limit is reached, which `end` then names.
 std::vector<Gathered> gather_at(std::span<const Sensor> sensors, FinalGather& gather,
-                                unsigned rounds, std::uint64_t seed,
-                                const PointLightOptions& options, const Workers& workers) {
+                                unsigned rounds, std::uint64_t seed, const Limits& limits,
+                                const Workers& workers, PointsEnd& end) {
     const std::size_t rays_of_point = std::size_t{gathers} * rays_of_round * rounds;
     const std::size_t block = std::max<std::size_t>(1, rays_per_block / rays_of_point);
     const StopFlag never;
     gather.set_rounds(rounds);
     std::vector<Gathered> found;
+    found.reserve(sensors.size());
     for (std::size_t begin = 0; begin < sensors.size(); begin += block) {
-        if (options.give_up && options.give_up())
-            return {};
+        end = limits.reached(gather.rays());
+        if (end != PointsEnd::right)
+            break;
         std::vector<SurfacePoint> at;
         std::vector<std::uint64_t> streams;
         for (const Sensor& sensor :
@@ -97,30 +125,43 @@ LightAtPoints light_at(std::span<const Sensor> sensors, const Mesh& mesh, const 
     const auto rounds_of = [](double rays) {
         return std::max(1u, static_cast<unsigned>(std::ceil(rays / (gathers * rays_of_round))));
     };
+    // A pass that reduces the noise by less has found light that those before had not.
+    constexpr double helps = .9;
     FinalGather gather(mesh, tracer, light);
+    const Limits limits(options);
+    LightAtPoints all;
     std::vector<Gathered> found;
+    double before = std::numeric_limits<double>::infinity(); // noise
     unsigned next = options.rays > 0 ? rounds_of(options.rays) : first_rounds, rounds = 0;
     for (std::uint64_t pass = 0; next > 0; ++pass) {
-        const std::vector<Gathered> more =
-            gather_at(sensors, gather, next, hash_words({options.seed, pass}), options, workers);
-        if (more.size() < sensors.size())
-            return {};
+        const std::vector<Gathered> more = gather_at(
+            sensors, gather, next, hash_words({options.seed, pass}), limits, workers, all.end);
         const double share = double(next) / double(rounds + next);
-        found.resize(more.size());
+        if (pass == 0)
+            found.resize(more.size());
         for (std::size_t k = 0; k < more.size(); ++k)
             found[k] = {glm::mix(found[k].irradiance, more[k].irradiance, share),
                         (1 - share) * (1 - share) * found[k].variance +
                             share * share * more[k].variance};
         rounds += next;
         next = 0;
-        const double excess = noise_of(found) / options.noise;
+        if (all.end != PointsEnd::right)
+            break;
+        const double noise = noise_of(found), excess = noise / options.noise;
+        if (excess > 1 && !(noise < helps * before) && limits.has_lost_patience()) {
+            all.end = PointsEnd::patience;
+            break;
+        }
+        before = noise;
         const unsigned most = std::max(1u, options.max_rays / (gathers * rays_of_round));
         if (options.rays == 0 && excess > 1 && rounds < most)
             next = static_cast<unsigned>(
                 std::clamp(std::ceil((excess * excess - 1) * rounds), 1.0,
                            double(std::min(max_growth * rounds, most - rounds))));
     }
-    LightAtPoints all{{}, noise_of(found), 0, gather.rays()};
+    all.noise = noise_of(found);
+    all.rays = gather.rays();
+    all.lights.reserve(found.size());
     double sum = 0, squares = 0;
     for (const Gathered& point : found) {
         const Vec3 read(options.read_error);

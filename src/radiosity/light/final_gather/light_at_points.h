@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,16 +43,27 @@ struct PointLightOptions {
     /// 0: by `noise`. Shadow rays are a quarter of them. Four times as many halve the noise.
     unsigned rays = 0;
     unsigned max_rays = 1 << 20; ///< from a point
-    double read_error = 0;       ///< error by the light that is read [W/m2]
+    /// From all points together: once there are as many, no more blocks of points are begun.
+    std::uint64_t max_all_rays = std::numeric_limits<std::uint64_t>::max();
+    double read_error = 0; ///< error by the light that is read [W/m2]
     std::uint64_t seed = 1;
     /// Is asked before each block of points; true ends the work.
     std::function<bool()> give_up = {};
+    /// The time [s] after which no more blocks of points are begun, if there is an end.
+    std::optional<double> seconds = {};
+    /// The time [s] after which the work ends where more rays no longer reduce the noise.
+    double patience = std::numeric_limits<double>::infinity();
 };
 
+/// The reason for which rays ended.
+enum class PointsEnd { right, gave_up, rays, time, patience };
+
 struct LightAtPoints {
-    std::vector<PointLight> lights; ///< by sensor; empty if the work was given up
-    double noise = 0;               ///< of rays, as PointLightOptions::noise [-]
-    double noise_uncertainty = 0;   ///< one sigma of it
+    /// By sensor; fewer than sensors where the work ended before the first rays of all were traced.
+    std::vector<PointLight> lights;
+    PointsEnd end = PointsEnd::right;
+    double noise = 0;             ///< of rays, as PointLightOptions::noise [-]
+    double noise_uncertainty = 0; ///< one sigma of it
     std::uint64_t rays = 0;
 };
 

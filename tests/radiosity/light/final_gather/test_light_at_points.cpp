@@ -11,6 +11,7 @@
 #include "support/catch.h"
 
 #include <cmath>
+#include <limits>
 
 using namespace hemilux;
 using test::Model;
@@ -158,4 +159,52 @@ TEST_CASE("light at points does not depend on the number of threads, and can be 
     CHECK(light_at(sensors, model.mesh, model.bvh, SurfaceLight(model.mesh, solution),
                    {.give_up = [] { return true; }}, Workers(1))
               .lights.empty());
+}
+
+TEST_CASE("rays at points end by a limit, and the points that had theirs keep their light") {
+    const Model model(test::room_with_block());
+    const Solution solution =
+        test::solve(model, *find_method("stored-transport"), {}, test::steps(2));
+    std::vector<Sensor> sensors;
+    for (int k = 0; k < 8192; ++k)
+        sensors.push_back(sensor_at(model.mesh, model.bvh, Vec3(0, 0, k / 16384.0), {0, 0, 1}));
+    const auto light = [&](const PointLightOptions& options, unsigned threads) {
+        return light_at(sensors, model.mesh, model.bvh, SurfaceLight(model.mesh, solution), options,
+                        Workers(threads));
+    };
+    const LightAtPoints some = light({.rays = 128, .max_all_rays = 300'000}, 1),
+                        by_three = light({.rays = 128, .max_all_rays = 300'000}, 3),
+                        all = light({.rays = 128}, 1);
+    CHECK(some.end == PointsEnd::rays);
+    CHECK(all.end == PointsEnd::right);
+    CHECK(all.lights.size() == sensors.size());
+    REQUIRE(some.lights.size() > 1000);
+    REQUIRE(some.lights.size() < sensors.size());
+    REQUIRE(by_three.lights.size() == some.lights.size());
+    for (std::size_t k = 0; k < some.lights.size(); ++k) {
+        CHECK(some.lights[k].irradiance == all.lights[k].irradiance);
+        CHECK(by_three.lights[k].irradiance == all.lights[k].irradiance);
+    }
+    // What all points had before is not lost.
+    const LightAtPoints in_two_passes = light({.noise = 1e-6, .max_all_rays = 2'000'000}, 0);
+    CHECK(in_two_passes.end == PointsEnd::rays);
+    CHECK(in_two_passes.lights.size() == sensors.size());
+    CHECK(in_two_passes.noise > 0);
+    CHECK(light({.seconds = 0}, 0).lights.empty());
+    CHECK(light({.seconds = 0}, 0).end == PointsEnd::time);
+}
+
+TEST_CASE("patience does not end rays at points that reduce the noise") {
+    const Model model(test::room_with_block());
+    const Solution solution =
+        test::solve(model, *find_method("stored-transport"), {}, test::steps(2));
+    const std::vector<Sensor> sensors{sensor_at(model.mesh, model.bvh, Vec3(0.0), {0, 0, 1})};
+    const auto light = [&](double patience) {
+        return light_at(sensors, model.mesh, model.bvh, SurfaceLight(model.mesh, solution),
+                        {.noise = 1e-9, .max_rays = 1 << 16, .patience = patience}, Workers(1));
+    };
+    const LightAtPoints without = light(std::numeric_limits<double>::infinity());
+    CHECK(without.rays >= 1 << 16);
+    CHECK(light(0).rays == without.rays);
+    CHECK(light(0).end == PointsEnd::right);
 }
