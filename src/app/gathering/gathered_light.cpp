@@ -132,15 +132,14 @@ ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t see
 }
 
 /// Gathers by so many rays at a point, and judges what was given out: judge(pixels, seed) does so
-/// by about so many pixels. Where the error is too large, it is gathered again with four times as
-/// many rays, as long as that helps: in small pictures most of it lies between the points of the
-/// grid. Where the error itself is asked for, more pixels are judged.
+/// by about so many pixels. Where the error is too large, it is gathered again with twice as many
+/// rays, as long as that helps. Where the error itself is asked for, more pixels are judged.
 template <class Gather, class Judge>
 void Gathering::gather_until_right(const std::string& what, const ReadError& read,
                                    const Gather& gather, const Judge& judge, std::uint64_t seed) {
     constexpr unsigned max_rays = 256;
     constexpr std::uint64_t usual_pixels = 512, max_more = 64;
-    constexpr double helps = .75;
+    constexpr double helps = .85;
     Errors errors{read};
     std::uint64_t judged = 1; // by so many times the usual pixels
     const auto judge_by = [&](std::uint64_t more) {
@@ -153,7 +152,7 @@ void Gathering::gather_until_right(const std::string& what, const ReadError& rea
         errors.noise_uncertainty = own.uncertainty;
     };
     double before = std::numeric_limits<double>::infinity();
-    for (unsigned rays = settings_.gather.value_or(rays_for(error_));; rays *= 4) {
+    for (unsigned rays = settings_.gather.value_or(rays_for(error_));; rays *= 2) {
         const Stopwatch watch;
         gather(rays);
         statistics_.seconds_gather += watch.seconds();
@@ -165,7 +164,7 @@ void Gathering::gather_until_right(const std::string& what, const ReadError& rea
                  what + " by " + counted(rays, "ray", "rays") + " a point: its own error is " +
                      percent(errors.noise) + ", that of the light which it reads " +
                      percent(errors.read.error));
-        if (settings_.gather || errors.bound() <= error_ || 4 * rays > max_rays ||
+        if (settings_.gather || errors.bound() <= error_ || 2 * rays > max_rays ||
             errors.noise > helps * before || errors.read.bound > error_ || monitor_.interrupted)
             break;
         before = errors.noise;
@@ -272,6 +271,8 @@ void Gathering::find_picture(const Camera& camera) {
     gather_until_right(
         "picture", read,
         [&](unsigned of_point) {
+            // In small pictures most of the error lies between the points of the grid.
+            options.gathers_coarse = options.gather > 0;
             options.gather = of_point;
             light_.picture = render_view(scene_, camera, options);
         },

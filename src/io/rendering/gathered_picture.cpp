@@ -1,5 +1,6 @@
 #include "io/rendering/gathered_picture.h"
 
+#include "io/rendering/linear_fit.h"
 #include "io/rendering/pixel_colours.h"
 #include "parallel/workers.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -21,8 +22,7 @@ float weight_at(int step) {
     return window[static_cast<std::size_t>(std::ptrdiff_t{step} + half_window)];
 }
 
-/// The share of the direct light that arrives in the pixels of a window: how far it varies beyond
-/// the noise of their shadow rays, and otherwise than linearly.
+/// The share of the direct light that arrives in the pixels of a window.
 class ShareAround {
   public:
     /// `rays` are the shadow rays of a pixel.
@@ -30,46 +30,25 @@ class ShareAround {
 
     void add(int dx, int dy, const glm::vec3& arriving, const glm::vec3& unshadowed, float weight) {
         const float all = unshadowed.x + unshadowed.y + unshadowed.z;
-        if (!(all > 0))
-            return;
-        const float share = (arriving.x + arriving.y + arriving.z) / all;
-        const glm::vec2 step(dx, dy);
-        n_ += weight;
-        mean_ += weight * share;
-        squares_ += weight * share * share;
-        at_ += weight * step;
-        steps_ += weight * step * step;
-        across_ += weight * step.x * step.y;
-        slope_ += weight * share * step;
+        if (all > 0)
+            fit_.add({dx, dy}, double((arriving.x + arriving.y + arriving.z) / all),
+                     double(weight));
     }
 
     /// Returns the weight of a pixel's own share beside the mean of the window, by the variance of
     /// both (Lee 1980): 1 at a sharp edge, where all rays of most pixels agree; 0 where the share
     /// changes slowly.
     [[nodiscard]] float share_of_own() const {
-        if (!(n_ > 0) || rays_ < 2)
+        if (!(fit_.weight() > 0) || rays_ < 2)
             return 0;
-        const float mean = mean_ / n_, variance = squares_ / n_ - mean * mean;
-        if (!(variance > 0))
-            return 0;
-        const float noise = std::max(mean - squares_ / n_, 0.0f) / float(rays_ - 1);
-        const glm::vec2 at = at_ / n_, steps = steps_ / n_ - at * at,
-                        slope = slope_ / n_ - mean * at;
-        const float across = across_ / n_ - at.x * at.y,
-                    determinant = steps.x * steps.y - across * across;
-        float linear = 0; // the part of the variance of a linear function
-        if (determinant > 0)
-            linear = (slope.x * slope.x * steps.y + slope.y * slope.y * steps.x -
-                      2 * slope.x * slope.y * across) /
-                     determinant;
-        const float signal = variance - linear - noise;
-        return signal > 0 ? signal / (signal + noise) : 0;
+        const double noise = std::max(fit_.mean() - fit_.mean_square(), 0.0) / (rays_ - 1),
+                     signal = fit_.variance() - noise;
+        return signal > 0 ? float(signal / (signal + noise)) : 0;
     }
 
   private:
     unsigned rays_;
-    float n_ = 0, mean_ = 0, squares_ = 0, across_ = 0;
-    glm::vec2 at_{0.0f}, steps_{0.0f}, slope_{0.0f};
+    LinearFit fit_;
 };
 
 class GatheredPicture {

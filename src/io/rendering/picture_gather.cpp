@@ -133,7 +133,7 @@ void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& 
 /// over. They also help where few rays find most of the light, as that of a sky through a window.
 unsigned PictureGather::more_rays(int x, int y) const {
     const GridPoint& here = *grid_.point(x, y);
-    if (grid_.spacing(x, y) == 0 || here.noise > noise_for_many)
+    if (grid_.spacing(x, y) == 0 || here.is_coarse || here.noise > noise_for_many)
         return 4 * options_.rays;
     return here.noise > noise_for_more ? options_.rays : 0;
 }

@@ -141,7 +141,11 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
     const auto samples = static_cast<unsigned>(options.samples);
     const PictureGather gather(
         mesh, tracer, SurfaceLight(mesh, PatchLight(radiosity, options.slope), options.cells), rays,
-        options.width, options.height, {.rays = options.gather, .samples = samples, .check = check},
+        options.width, options.height,
+        {.rays = options.gather,
+         .samples = samples,
+         .gathers_coarse = options.gathers_coarse,
+         .check = check},
         Workers(options.threads));
     return gathered_picture(mesh, visible, gather, offsets, options.width, options.height, check,
                             Workers(options.threads));

@@ -1,5 +1,6 @@
 #include "io/rendering/slow_light.h"
 
+#include "io/rendering/linear_fit.h"
 #include "radiosity/paper/rays/shot.h"
 
 #include <algorithm>
@@ -72,22 +73,21 @@ double reach_of(double nearness) { return reach_share / nearness; }
 
 double SlowLightField::noise_around(const GridPoint& here, int x, int y) const {
     const double most = 1 / (min_steps * grid_.spacing(x, y));
-    double n = 0, sum = 0, squares = 0, all = 0, weights = 0, squared_weights = 0;
-    Vec2 at(0.0), around(0.0); // mean offset and its square
+    LinearFit fit;                            // to the light of all points around
+    double all = 0, weights = 0, squares = 0; // weights as those of fit()
+    Vec2 at(0.0), around(0.0);                // mean offset and its square
     for (int dy = -reach_points; dy <= reach_points; ++dy)
         for (int dx = -reach_points; dx <= reach_points; ++dx) {
             const GridPoint* const there = grid_.point(x + dx, y + dy);
             if (!there || !here.is_of_surface(*there))
                 continue;
-            const double light = mean_of_channels(Vec3(light_[grid_.number_of(*there)].indirect));
-            ++n;
-            sum += light;
-            squares += light * light;
+            const SlowLight& light = light_[grid_.number_of(*there)];
+            const Vec2 offset(dx, dy);
+            fit.add(offset, mean_of_channels(Vec3(light.indirect + light.unshadowed)), 1);
             all += double(there->light);
             const double weight = there == &here ? 1 : std::max(weight_of(here, there, most), 0.0);
             weights += weight;
-            squared_weights += weight * weight;
-            const Vec2 offset(dx, dy);
+            squares += weight * weight;
             at += weight * offset;
             around += weight * offset * offset;
         }
@@ -100,8 +100,7 @@ double SlowLightField::noise_around(const GridPoint& here, int x, int y) const {
     for (int axis = 0; axis < 2; ++axis)
         if (around[axis] > 0)
             beside += at[axis] * at[axis] / around[axis];
-    const double variance = std::max(squares / n - sum * sum / (n * n), 0.0);
-    return std::sqrt(variance * squared_weights * beside) / weights / (all / n);
+    return std::sqrt(fit.variance() * squares * beside) / weights / (all / fit.weight());
 }
 
 void SlowLightField::fit(int stride, const std::function<void()>& check, const Workers& workers) {
