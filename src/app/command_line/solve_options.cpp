@@ -19,8 +19,9 @@ namespace hemilux {
 void add_stop_options(Command command, StopRule& stop) {
     add_whole<std::uint32_t>(command, "--steps", stop.steps, 1,
                              std::numeric_limits<std::uint32_t>::max(), "after N steps");
-    add_seconds(command, "--time", stop.seconds, positive,
-                "after a time of solving, and as long again at --points; 2m and 1h are minutes and hours");
+    add_seconds(
+        command, "--time", stop.seconds, positive,
+        "after a time of solving, and as long again at --points; 2m and 1h are minutes and hours");
     add_error(command, "--error", stop.error,
               "at an estimated relative error, e.g. 1% or 0.01; for pictures and --points at an "
               "error of gathered light that is surely below this [0.02 for these]");
