@@ -133,7 +133,9 @@ ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t see
 
 /// Gathers by so many rays at a point, and judges what was given out: judge(pixels, seed) does so
 /// by about so many pixels. Where the error is too large, it is gathered again with twice as many
-/// rays, as long as that helps. Where the error itself is asked for, more pixels are judged.
+/// rays. Once that does not help, each place at which light changes fast gathers by itself: then
+/// most of the error lies between the points of the grid, as in small pictures. Where the error
+/// itself is asked for, more pixels are judged.
 template <class Gather, class Judge>
 void Gathering::gather_until_right(const std::string& what, const ReadError& read,
                                    const Gather& gather, const Judge& judge, std::uint64_t seed) {
@@ -152,9 +154,10 @@ void Gathering::gather_until_right(const std::string& what, const ReadError& rea
         errors.noise_uncertainty = own.uncertainty;
     };
     double before = std::numeric_limits<double>::infinity();
+    bool alone = false;
     for (unsigned rays = settings_.gather.value_or(rays_for(error_));; rays *= 2) {
         const Stopwatch watch;
-        gather(rays);
+        gather(rays, alone);
         statistics_.seconds_gather += watch.seconds();
         judge_by(1);
         // Few pixels may happen to hold much: more of them cost less than to gather again.
@@ -165,7 +168,9 @@ void Gathering::gather_until_right(const std::string& what, const ReadError& rea
                      percent(errors.noise) + ", that of the light which it reads " +
                      percent(errors.read.error));
         if (settings_.gather || errors.bound() <= error_ || 2 * rays > max_rays ||
-            errors.noise > helps * before || errors.read.bound > error_ || monitor_.interrupted)
+            errors.read.bound > error_ || monitor_.interrupted)
+            break;
+        if (errors.noise > helps * before && std::exchange(alone, true))
             break;
         before = errors.noise;
     }
@@ -270,9 +275,8 @@ void Gathering::find_picture(const Camera& camera) {
     options.cells = &light_.cache->cells();
     gather_until_right(
         "picture", read,
-        [&](unsigned of_point) {
-            // In small pictures most of the error lies between the points of the grid.
-            options.gathers_coarse = options.gather > 0;
+        [&](unsigned of_point, bool alone) {
+            options.gathers_coarse = alone;
             options.gather = of_point;
             light_.picture = render_view(scene_, camera, options);
         },
@@ -302,7 +306,7 @@ void Gathering::find_lightmap(const LightmapLayout& layout) {
             learn(lightmap_parts(mesh, texels, covered, settings_.bake, seed_of(10)), seed_of(11));
         gather_until_right(
             "lightmap", read,
-            [&](unsigned of_point) {
+            [&](unsigned of_point, bool) {
                 options.rays = of_point;
                 found =
                     gather_lightmap(mesh, scene_.tracer, light, texels, covered, options, workers_);

@@ -137,7 +137,7 @@ TEST_CASE("the error of gathered light is found as exactly as it is asked for") 
     place.write_room();
     const auto relative_uncertainty = [&](const std::string& options) {
         const auto outcome = place.hemilux(
-            "solve room.obj -q -o p.png --size 96x72 --error 2% --seed 2 --stats s.json" + options);
+            "solve room.obj -q -o p.png --size 96x72 --error 2% --seed 4 --stats s.json" + options);
         CHECK(outcome.code == 0);
         const std::string json = place.read("s.json");
         const double error = test::statistic(json, "estimated_error");
