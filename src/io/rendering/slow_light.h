@@ -45,8 +45,9 @@ class SlowLightField {
     /// Returns the light of a point of the grid, by its number.
     [[nodiscard]] SlowLight& at(std::size_t point) { return light_[point]; }
 
-    /// Returns the error of the mean of indirect light around a point, relative to all light that
-    /// arrives there. It follows from the spread of the points around, as if they were independent.
+    /// Returns the error of what fit() finds at a point, relative to all light that arrives there.
+    /// It follows from what a linear function leaves of the points around, as if they were
+    /// independent.
     [[nodiscard]] double noise_around(const GridPoint& here, int x, int y) const;
 
     /// Fits a linear function to the points around each (local linear regression: Fan 1992). Light

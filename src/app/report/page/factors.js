@@ -1,17 +1,11 @@
 // Form factors from a patch by a hemicube (Cohen and Greenberg 1985): the scene is drawn from the patch's centre onto
 // the sides of a cube, in colours that number the patches, and each pixel has a known share of the patch's power.
 
-const numberVertexShader = `
-  attribute vec3 position;
-  attribute vec3 colour;
-  uniform mat4 camera;
-  varying vec3 number;
-  void main() { number = colour; gl_Position = camera * vec4(position, 1.0); }`;
-
-const numberFragmentShader = `
+// The colour at a corner is the number of its patch; backs hide, and receive nothing.
+const numberShader = `
   precision highp float;
-  varying vec3 number;
-  void main() { gl_FragColor = vec4(gl_FrontFacing ? number : vec3(0.0), 1.0); }`; // backs hide, and receive nothing
+  varying vec3 light;
+  void main() { gl_FragColor = vec4(gl_FrontFacing ? light : vec3(0.0), 1.0); }`;
 
 class Hemicube {
   /** `view`: the SceneView whose patches are drawn; `edge`: pixels along an edge of the cube, an even number. */
@@ -22,7 +16,7 @@ class Hemicube {
     const gl = canvas.getContext("webgl", { antialias: false, preserveDrawingBuffer: true });
     if (!gl) throw new Error("This browser has no WebGL for form factors.");
     this.gl = gl;
-    const program = makeProgram(gl, numberVertexShader, numberFragmentShader);
+    const program = makeProgram(gl, numberShader);
     this.camera = gl.getUniformLocation(program, "camera");
     gl.useProgram(program);
     this.fill(0, view.position, 3, gl.FLOAT, false);

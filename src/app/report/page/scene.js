@@ -27,9 +27,9 @@ const fragmentShader = `
     gl_FragColor = vec4(exposure > 0.0 ? srgb(c) : light, alpha);
   }`;
 
-function makeProgram(gl, vertexText = vertexShader, fragmentText = fragmentShader) {
+function makeProgram(gl, fragmentText = fragmentShader) {
   const program = gl.createProgram();
-  for (const [type, text] of [[gl.VERTEX_SHADER, vertexText], [gl.FRAGMENT_SHADER, fragmentText]]) {
+  for (const [type, text] of [[gl.VERTEX_SHADER, vertexShader], [gl.FRAGMENT_SHADER, fragmentText]]) {
     const shader = gl.createShader(type);
     gl.shaderSource(shader, text);
     gl.compileShader(shader);
