@@ -181,7 +181,8 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
     std::optional<Reference> reference;
     if (!settings.reference.empty())
-        reference = read_reference(settings.reference, mesh, {});
+        reference =
+            reference_of(read_patch_table(settings.reference), settings.reference, mesh, {});
     const Prepared prepared = prepare(loaded, settings.options, settings.verbosity);
     const Needs& needs = prepared.needs;
     const auto& [tracer, tree, crowd] = prepared.made;

@@ -51,6 +51,7 @@ struct Loaded {
     std::optional<Checkpoint> resumed;
     std::vector<NamedPoint> points;          ///< points of --points
     std::vector<TargetPoints> target_points; ///< points of --for
+    PatchTable reference;                    ///< table of --reference
     LoadedMesh scene;
     FileLightmap file_lightmap; ///< of `bake`
 };
@@ -101,6 +102,12 @@ double bytes_of_own_file(const SolveSettings& settings) {
     return settings.file_bake.asked && !error ? copies * static_cast<double>(size) : 0;
 }
 
+/// Returns the bytes of a table that is kept until the patches are divided.
+double bytes_of_table(const PatchTable& table) {
+    constexpr double bytes_per_row = sizeof(double) + 3 * sizeof(Vec3);
+    return bytes_per_row * static_cast<double>(table.area.size());
+}
+
 /// Adds and logs what reading the file again has noticed, where reading it first has not warned of
 /// files outside of its folder.
 void warn_once(std::vector<std::string>& warnings, const std::vector<std::string>& more,
@@ -129,10 +136,14 @@ Loaded load(SolveSettings settings) {
     if (!settings.points.path.empty())
         points = read_points(settings.points.path);
     std::vector<TargetPoints> target_points = points_of_target(settings.target);
+    PatchTable reference;
+    if (!settings.reference.empty())
+        reference = read_patch_table(settings.reference);
     LoadedMesh scene = load_mesh(
         settings.scene, files, settings.options, methods, settings.verbosity, [&](double patches) {
             return bytes_of_own_file(settings) + bytes_of_results(settings, patches) +
-                   bytes_of_points(points.size(), settings.rays_of_gather());
+                   bytes_of_points(points.size(), settings.rays_of_gather()) +
+                   bytes_of_table(reference);
         });
     const Mesh& mesh = scene.mesh;
     settings.divide_auto |= divides_by_default(settings, mesh.patches().size());
@@ -149,8 +160,10 @@ Loaded load(SolveSettings settings) {
         file_lightmap = lightmap_of_file(settings, mesh, scene.origins);
     if (file_lightmap.source)
         warn_once(scene.warnings, file_lightmap.source->warnings(), settings.verbosity);
-    return {std::move(settings),      std::move(resumed), std::move(points),
-            std::move(target_points), std::move(scene),   std::move(file_lightmap)};
+    (void)detail_mask(mesh, settings.detail); // names only groups of the scene
+    return {std::move(settings),      std::move(resumed),   std::move(points),
+            std::move(target_points), std::move(reference), std::move(scene),
+            std::move(file_lightmap)};
 }
 
 /// Finds what belongs to the patches as they are then.
@@ -159,13 +172,15 @@ std::vector<double> target_of(const Problem& problem) {
                           problem.tracer());
 }
 
-/// Builds what solving needs besides the patches.
-Problem build(Loaded loaded, Monitor& monitor) {
+/// Builds what solving needs besides the patches. From then on a signal ends the run with what
+/// there is, which is watched before a stage is told of.
+Problem build(Loaded loaded, Monitor& monitor, InterruptGuard& guard) {
     Problem problem{.loaded = std::move(loaded), .monitor = monitor};
     const SolveSettings& settings = problem.settings();
     problem.prepared = prepare(problem.loaded.scene, settings.options, settings.verbosity);
     problem.options =
         with_memory(settings.options, settings.scene, problem.loaded.scene.bytes_needed);
+    guard.watch(monitor.interrupted.own().wished);
     log_line(settings.verbosity, Verbosity::verbose,
              tracer_text(problem.prepared.made.tree, problem.prepared.seconds));
     problem.target = target_of(problem);
@@ -197,17 +212,13 @@ Divided divide(Problem& problem, Statistics& statistics) {
         mesh_changed, statistics);
 }
 
-/// Reads the reference, which is of the patches as they are divided. A signal ends the program
-/// while the file is read.
-std::optional<Reference> load_reference(const Problem& problem, InterruptGuard& guard) {
+/// Takes the reference, which is of the patches as they are divided.
+std::optional<Reference> take_reference(Problem& problem) {
     const std::string& path = problem.settings().reference;
-    std::vector<bool> detail = detail_mask(problem.mesh(), problem.settings().detail);
     if (path.empty() || problem.monitor.interrupted)
         return std::nullopt;
-    guard.unwatch();
-    Reference reference = read_reference(path, problem.mesh(), std::move(detail));
-    guard.watch(problem.monitor.interrupted.own().wished);
-    return reference;
+    return reference_of(std::move(problem.loaded.reference), path, problem.mesh(),
+                        detail_mask(problem.mesh(), problem.settings().detail));
 }
 
 /// Takes the steps. Goes on with the run by which the patches were divided, where there is one.
@@ -354,12 +365,12 @@ int write(const Problem& problem, const Run& done, const Solution& solution, Sta
 }
 
 /// Solves the problem and writes the outputs; returns the exit code.
-int solve(Problem& problem, InterruptGuard& guard, const Stopwatch& started) {
+int solve(Problem& problem, const Stopwatch& started) {
     Statistics statistics;
     statistics.seconds_read = problem.loaded.scene.seconds_read;
     statistics.seconds_bvh = problem.prepared.seconds;
     Divided divided = divide(problem, statistics);
-    const std::optional<Reference> reference = load_reference(problem, guard);
+    const std::optional<Reference> reference = take_reference(problem);
     Run done = take_steps(problem, divided, reference, statistics.seconds_divide);
     // Where a signal or the time left no step, the light by which patches were divided is used.
     const Solution* solution = &done.solver->solution();
@@ -391,11 +402,10 @@ int solve(const SolveSettings& settings) {
     const Stopwatch started;
     Monitor monitor;
     InterruptGuard guard;
-    Problem problem = build(load(settings), monitor);
+    Problem problem = build(load(settings), monitor, guard);
     const SharedStop shared_stop(monitor.interrupted, *settings.ranks);
-    guard.watch(monitor.interrupted.own().wished);
     try {
-        return solve(problem, guard, started);
+        return solve(problem, started);
     } catch (const SolveError& error) {
         throw as_input_error(error, problem);
     }

@@ -38,8 +38,8 @@ void check_same_patches(const PatchTable& table, const std::string& path, const 
 
 } // namespace
 
-Reference read_reference(const std::string& path, const Mesh& mesh, std::vector<bool> detail) {
-    PatchTable table = read_patch_table(path);
+Reference reference_of(PatchTable table, const std::string& path, const Mesh& mesh,
+                       std::vector<bool> detail) {
     check_same_patches(table, path, mesh);
     return {std::move(table.radiosity), std::move(table.standard_error), std::move(detail)};
 }

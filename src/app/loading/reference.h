@@ -20,10 +20,10 @@ struct Reference {
     }
 };
 
-/// Reads the solution from a patch table. Throws InputError, naming the file, unless its rows are
-/// the mesh's patches.
-[[nodiscard]] Reference read_reference(const std::string& path, const Mesh& mesh,
-                                       std::vector<bool> detail);
+/// Takes the solution of a patch table that was read. Throws InputError, naming the file, unless
+/// its rows are the mesh's patches.
+[[nodiscard]] Reference reference_of(PatchTable table, const std::string& path, const Mesh& mesh,
+                                     std::vector<bool> detail);
 
 /// Returns which patches belong to the groups named, or, where none is, to those whose name begins
 /// with `detail`. Throws UsageError for a group that the scene does not have.

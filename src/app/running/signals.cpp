@@ -70,17 +70,13 @@ InterruptGuard::~InterruptGuard() {
         if (struct sigaction now{};
             sigaction(signal, nullptr, &now) == 0 && now.sa_handler == on_interrupt)
             std::signal(signal, SIG_DFL);
-    unwatch();
+    interrupted = nullptr;
+    end_waits_on(nullptr);
 }
 
 void InterruptGuard::watch(std::atomic<bool>& flag) {
     end_waits_on(&flag);
     interrupted = &flag;
-}
-
-void InterruptGuard::unwatch() {
-    interrupted = nullptr;
-    end_waits_on(nullptr);
 }
 
 int exit_code_of_signal() { return exit_code; }

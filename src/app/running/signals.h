@@ -17,10 +17,9 @@ class InterruptGuard {
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-    /// Makes every later signal set the flag.
+    /// Makes every later signal set the flag. Call it before telling of the stage at which there is
+    /// something to save: who waits for that word may send a signal right after it.
     void watch(std::atomic<bool>& flag);
-    /// Makes every later signal end the program at once again.
-    void unwatch();
 };
 
 /// Returns how the program ends after the first signal: 128 and its number, such as 130 or 143.

@@ -191,6 +191,23 @@ TEST_CASE("folders that cannot be written to or are files are refused before any
     }
 }
 
+TEST_CASE("a reference that cannot be read is refused before the patches are divided") {
+    const Workplace place;
+    place.write_room();
+    place.write("bad.csv", "not,a,table\n1,2,3\n");
+    const std::string endless =
+        "solve room.obj --divide auto --error 0.0001% --max-rays 1000000000000000 -v -o a.csv ";
+    for (const auto& [arguments, code] :
+         {std::pair{"--reference none.csv", 2}, std::pair{"--reference bad.csv", 2},
+          std::pair{"--reference bad.csv --detail nothing", 2}, std::pair{"--detail nothing", 1}}) {
+        CAPTURE(arguments);
+        const auto outcome = place.hemilux(endless + arguments);
+        CHECK(outcome.code == code);
+        CHECK_THAT(outcome.err, !Contains("BVH"));
+        CHECK_FALSE(place.has("a.csv"));
+    }
+}
+
 TEST_CASE("a closed stdout or stderr is an error to report, or none at all") {
     const Workplace place;
     place.write_room();
