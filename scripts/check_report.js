@@ -79,6 +79,24 @@
   slider.value = 0;
   slider.dispatchEvent(new Event("input"));
 
+  const steps = document.getElementById("slider");
+  check("steps before the last are kept", run.lit_steps.every((step, k) => step === 2 ** k) && (run.steps.length < 2 || run.lit_steps.length > 0));
+  check("there is a slider of steps where there are some", document.getElementById("step-label").hidden === (run.lit_steps.length === 0));
+  if (run.lit_steps.length > 0) {
+    document.getElementById("number").value = chosen;
+    document.getElementById("choose").requestSubmit();
+    const last = rows(), light = run.radiosity;
+    steps.value = 0;
+    steps.dispatchEvent(new Event("input"));
+    check("the slider of steps shows the light after the first", document.getElementById("step").textContent === "1" &&
+      differ(first, pixels()) && rows().some(([, value], k) => value !== last[k][1]) && run.radiosity !== light);
+    check("in all it is about as much as at the end", Math.abs(meanLight(run) / run.meanLight - 1) < 0.3);
+    steps.value = steps.max;
+    steps.dispatchEvent(new Event("input"));
+    check("the last step comes back", run.radiosity === light && rows().every(([, value], k) => value === last[k][1]));
+    key("Escape");
+  }
+
   const select = document.getElementById("layer");
   for (const option of [...select.options].slice(1)) {
     select.value = option.value;

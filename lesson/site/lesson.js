@@ -195,7 +195,8 @@ const lesson = (() => {
     article.innerHTML = chosen.text;
     const source = element("p", { className: "source" });
     source.innerHTML = `<q>${chosen.source.sentence}</q> <cite>section ${chosen.source.section}</cite><br>Page of source: ` +
-      chosen.source.pages.map((page) => `<code>${page}</code>`).join(", ");
+      chosen.source.pages.map((page) => `<code>${page}</code>`).join(", ") +
+      (chosen.source.measured ? `<br>Measured on other scenes: <code>${chosen.source.measured}</code>` : "");
     const exercises = element("section", { className: "exercises" }, element("h2", {}, "Exercises"),
       ...chosen.exercises.map((exercise, k) => exerciseForm(exercise, k + 1)));
     const box = element("figure", { className: "figure" });

@@ -30,6 +30,8 @@
     await wait(60);
     return lesson.figure;
   };
+  // A statement of the text of the chapter that is open: it still stands there in these words, and it holds.
+  const states = (number, words, holds) => check(`${number}. "${words}"`, holds && document.querySelector("article").textContent.replace(/\s+/g, " ").includes(words));
   const values = () => JSON.stringify(lesson.figure.values);
   // Waits until the figure has done what takes several pictures.
   const settled = async () => { while (lesson.figure?.isBusy) await wait(20); await wait(250); };
@@ -107,6 +109,9 @@
       check("1. the hemicube is off near by", Math.abs(lesson.figure.values.hemicube - lesson.figure.values.closed) > 0.02);
       await open("#1?distance=2");
       check("1. and not far away", Math.abs(lesson.figure.values.hemicube - lesson.figure.values.closed) < 0.01);
+      const noise = [];
+      for (const rays of [40, 4000]) { await open(`#1?rays=${rays}`); noise.push(lesson.figure.values.error); }
+      states(1, "for one digit more you need a hundred times as many rays", near(noise[0] / noise[1], 10, 0.35));
     },
     2: async () => {
       await open("#2?bounces=13");
@@ -115,14 +120,25 @@
       const row = Array.from({ length: patches }, (_, j) => expected.small.factors.find((pair) => pair.i === chosen && pair.j === j)?.F ?? 0);
       check("2. a row is that of the program", close(factors, row, 1e-9));
       check("2. it sums to 1, and has 0 for the patch itself", near(factors.reduce((a, b) => a + b), 1, 1e-6) && factors[chosen] === 0);
+      const room = lesson.figure.views.find((view) => view.room).room.patches, { normal, centre } = room[chosen];
+      const inPlane = room.filter((other) => Math.abs(centre.reduce((sum, x, k) => sum + (other.centre[k] - x) * normal[k], 0)) < 1e-9);
+      states(2, "nor others in its own plane", inPlane.length > 1 && inPlane.every(({ index }) => factors[index] === 0));
       const missing = [];
       for (const bounces of [5, 6]) { await open(`#2?bounces=${bounces}`); missing.push(lesson.figure.values.missing); }
       check(`2. six bounces leave less than 1 % (${figures.percent(missing[1])}), five do not`, missing[1] < 0.01 && missing[0] > 0.01);
+      for (const rho of [0.3, 0.5, 0.8]) {
+        const left = [];
+        for (const bounces of [2, 3, 6]) { await open(`#2?bounces=${bounces}&reflectance=${rho}`); left.push(lesson.figure.values.missing); }
+        const [once, later] = [left[1] / left[0], (left[2] / left[1]) ** (1 / 3)];
+        states(2, "it brings at most ρ times as much as the one before", once <= rho && later <= rho && later > 0.8 * rho);
+      }
       await open("#2?bounces=6&reflectance=0.9");
       check("2. at 0.9 six bounces are not enough", lesson.figure.values.missing > 0.1);
       await open("#2");
       const ceiling = 20 * 3;
       check("2. after one bounce the ceiling is black", lesson.figure.values.light[ceiling] === 0 && lesson.figure.values.all[ceiling] > 0);
+      await open("#2?bounces=2");
+      states(2, "its first light comes with the second bounce", lesson.figure.values.light[ceiling] > 0);
       await open("#2?bounces=13&lamp=2");
       const light = lesson.figure.values.light;
       check("2. twice the lamp is twice the light", close(light.map((value) => value / 2), expected.small.light, 1e-8));
@@ -138,6 +154,19 @@
       const errors = {};
       for (const steps of [4, 16]) { await open(`#3?steps=${steps}&method=progressive-monte-carlo`); errors[steps] = lesson.figure.values.error; }
       check("3. four times the steps halve the error", near(errors[16] / errors[4], 0.5, 0.2));
+      const first = {};
+      for (const method of ["progressive", "monte-carlo", "progressive-monte-carlo"]) { await open(`#3?steps=1&method=${method}`); first[method] = lesson.figure.values; }
+      states(3, "For the third it starts low", 2 * first["progressive-monte-carlo"].error < Math.min(first.progressive.error, first["monte-carlo"].error));
+      for (const method of ["progressive", "monte-carlo"]) {
+        const shots = [first[method]];
+        for (const steps of [8, 30]) { await open(`#3?steps=${steps}&method=${method}`); shots.push(lesson.figure.values); }
+        states(3, "it falls as light is shot", shots.every(({ error, unshot }, k) => k === 0 || (error < shots[k - 1].error && unshot < shots[k - 1].unshot)));
+      }
+      await open("#3?steps=4&method=progressive");
+      const four = lesson.figure.values, shone = lesson.figure.views.find((view) => view.room).room.patches;
+      const behind = shone.filter(({ index }) => [0, 1, 2].every((c) => four.light[3 * index + c] === 0));
+      await open("#3?steps=5&method=progressive");
+      states(3, "The lamp shoots first, then what it has lit", behind.length > 0 && behind.some(({ index }) => lesson.figure.values.light[3 * index] > 0));
       await open("#3?steps=0");
       check("3. before the first shot only the lamp shines", lesson.figure.values.light.filter((value) => value > 0).length === 3 * 4);
     },
@@ -157,6 +186,10 @@
       check("4. a higher threshold takes fewer bytes, as many as in the program", narrow === expected.threshold.densityRays && narrow < vertices);
       const table = hemilux.hemisphere(2), leaves = table.cells.filter(({ level }) => level === 2);
       check("4. a full tree has 84 triangles and 41 vertices", table.cells.length === 84 && table.vertices.length === 41 && leaves.length === 64);
+      const shares = leaves.map(({ projected, solidAngle }) => projected / solidAngle);
+      states(4, "those at the rim are narrow", Math.max(...shares) > 4 * Math.min(...shares));
+      const rim = Math.min(...leaves.map(({ projected }) => projected)), low = leaves.find(({ projected }) => projected === rim);
+      states(4, "those at the rim are narrow", low.vertex.some((v) => Math.abs(table.vertices[v][2]) < 1e-9));
       await open("#4");
       check("4. 1997 takes 2132 bytes", document.querySelector(".sentence").textContent.includes("2132 bytes"));
     },
@@ -186,6 +219,12 @@
       const right = await set(""), sphere = await set("sphere=true"), flat = await set("sphere=true&depth=0"), centre = await set("centre=true");
       check(`6. the corrected rules are right within their error (${figures.percent(right.off)})`, right.off < 1.5 * right.estimated);
       check(`6. D1: wrong (${figures.percent(sphere.off)}), and neither the balance nor the estimate notices`, sphere.off > 2 * sphere.estimated && Math.abs(sphere.missing) < 0.01);
+      const patches = lesson.figure.views.find((view) => view.room).room.patches, brightest = (light) => patches.map(({ index }) => index).sort((a, b) => light[3 * b] - light[3 * a]);
+      const sides = [0, 1, 2].map((k) => patches.map(({ corners }) => corners.map((corner) => corner[k])).flat());
+      const atWall = ({ corners }) => [0, 1, 2].reduce((sum, k) => sum + (corners.some((corner) => corner[k] === Math.min(...sides[k]) || corner[k] === Math.max(...sides[k])) ? 1 : 0), 0);
+      states(6, "Corners get it", brightest(sphere.light).slice(0, 8).every((index) => atWall(patches[index]) >= 2));
+      const longer = await set("sphere=true&rays=512");
+      states(6, "more rays make it small, and the true error stays", longer.estimated < 0.5 * sphere.estimated && near(longer.off, sphere.off, 0.1));
       check("6. at depth 0 the fault of D1 is gone", flat.off < 1.5 * flat.estimated);
       const more = await set("centre=true&rays=512");
       check(`6. D2: some 2 % stay, however many rays (${figures.percent(centre.off)}, ${figures.percent(more.off)})`, near(more.off, 0.02, 0.3) && more.off > 1.8 * more.estimated && Math.abs(more.missing) < 0.01);
@@ -205,6 +244,8 @@
       check(`7. stored transport is far below (${figures.percent(least("stored-transport"))}, hemisphere ${figures.percent(least("hemisphere"))})`, least("stored-transport") < 0.5 * least("hemisphere"));
       const shot = errors["progressive-monte-carlo"], slope = Math.log(shot.at(-1) / shot[2]) / Math.log(rays["progressive-monte-carlo"].at(-1) / rays["progressive-monte-carlo"][2]);
       check(`7. shooting falls with a slope of −1/2 (${slope.toFixed(2)})`, near(slope, -0.5, 0.25));
+      const shots = errors.progressive;
+      states(7, "hardly falls at first and then bends down", shots[0] > 0.3 && shots.at(-1) < 0.25 * shots[0]);
       // Which is first by the clock is not tested; which needs fewer rays is.
       const { first } = lesson.figure.values, raysTo = (method) => rays[method][errors[method].findIndex((error) => error <= 0.05)] ?? Infinity;
       check("7. the sentence names a method with a useful picture", first && least(first) <= 0.05 && document.querySelector(".sentence").textContent.includes(first));
@@ -243,14 +284,18 @@
       const spread = (of) => Math.max(...Object.values(of).map(({ all: error }) => error)) / Math.min(...Object.values(of).map(({ all: error }) => error));
       check("8. all guides shoot about as many rays", Object.values(guides.true).every(({ rays }) => near(rays, guides.true.none.rays, 0.05)));
       check("8. without the screen the things get better by counts", guides.false.counts.detail < guides.false.none.detail);
+      states(8, "these get better and the rest gets worse", guides.false.counts.detail < guides.false.none.detail && guides.false.counts.all > guides.false.none.all);
+      states(8, "Yet the things gain here even so", guides.true.counts.detail < guides.true.none.detail);
       check(`8. the gain is small: the best and the worst of all surfaces differ by less than a quarter (${spread(guides.true).toFixed(2)}, ${spread(guides.false).toFixed(2)})`, spread(guides.true) < 1.25 && spread(guides.false) < 1.25);
     },
     9: async () => {
       await open("#9");
-      const { ratio } = lesson.figure.values;
+      const { ratio, curves } = lesson.figure.values;
       await open("#9?reflectance=0.85");
-      const bright = lesson.figure.values.ratio;
+      const bright = lesson.figure.values.ratio, brighter = lesson.figure.values.curves;
       check(`9. shooting needs many times the rays (${ratio.toFixed(0)}), more in a brighter room (${bright.toFixed(0)})`, ratio > 5 && bright > ratio);
+      states(9, "the same rays serve all the further bounces, and their error hardly grows", curves.stored.every(([rays, error], k) =>
+        near(brighter.stored[k][0], rays, 0.01) && brighter.stored[k][1] < 1.2 * error));
     },
     10: async () => {
       const at = async (rest) => { await open(`#10?${rest}`); return { ...lesson.figure.values }; };

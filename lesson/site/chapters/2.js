@@ -10,7 +10,7 @@ One equation for each patch: a linear system. The picture beside the room is its
 patch sees; in a closed room it sums to 1, as all light arrives somewhere. A patch does not see itself, nor others in its
 own plane: these squares are dark.</p>
 <p>How is it solved? Let the light fly. After 0 bounces only the lamp shines. One bounce lights what the lamp sees. Each
-further bounce multiplies by <var>ρF</var> once more, so it brings about <var>ρ</var> times as much as the one before. The
+further bounce multiplies by <var>ρF</var> once more, so it brings at most <var>ρ</var> times as much as the one before. The
 sum is a geometric series, and its limit solves the system.</p>
 <p>Click a patch, or its row. With <i>Form factors</i> the room shows how much of the patch's light goes where. Look at
 the ceiling: its first light comes with the second bounce, and before that it is black. All of its light was on another surface

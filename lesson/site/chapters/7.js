@@ -21,6 +21,7 @@ one room may lose in the next.</p>`,
   source: {
     section: "3", sentence: "The purpose of radiosity improvement techniques is to obtain as fast as possible a useful image.",
     pages: ["src/radiosity/engine/methods", "docs/measured/results-paper.md"],
+    measured: "docs/measured/results-methods.md",
   },
   state: { useful: 5, room: "boxes", seconds: 1, runs: 3, seed: 1, eye: "0.12,0.1" },
   quick: { runs: 1, seconds: 0.25 },

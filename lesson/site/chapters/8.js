@@ -4,21 +4,22 @@ lesson.chapter({
   summary: "A wall in front of the crowd, and what better guides do about it.",
   text: `
 <p>A density ray counts everything on its way. It does not know what is visible. Put a screen before a crowd: all counts
-towards it are high, and the rays that they attract end on the bare screen. The paper says so itself in its
-conclusion.</p>
+towards it are high, and the rays that they attract end on the bare screen. The paper fears this itself in its
+conclusion. Yet the things gain here even so: the bars tell how much.</p>
 <p>Each bar is a guide, and all shoot the same number of rays from the same room: so the same cost in rays, not quite in
 time. The upper bar is the error of all surfaces, the lower one that of the small things alone.</p>
 <p><b>None</b> is <i>stratified</i>: the same triangles, rays in proportion to power. It is what a guide has to beat.</p>
 <p><b>Counts</b> are those of section 5. With the screen away they send more rays to the things; these get better and the
 rest gets worse, as the rays must come from somewhere.</p>
 <p><b>Pyramid</b> is the successor of 2000: triangles of many levels. <b>Visible</b> guides by what is seen first, and
-<b>learned</b> by what earlier rays have found. Neither is fooled by what is hidden.</p>
+<b>learned</b> by what earlier rays have found: what is hidden attracts none of theirs.</p>
 <p>Now look at the size of it all. Between the best and the worst bar there is far less than between shooting and stored
 transport (chapter 7). So the idea is sound and its gain is small. Ask why: a guide moves rays between directions, but the
 noise of shooting comes from all bounces.</p>`,
   source: {
     section: "7", sentence: "This technique could possibly fail in some situations where a wall is in front of a large number of surfaces.",
     pages: ["src/radiosity/research/guides", "src/radiosity/engine/methods/stratified.cpp"],
+    measured: "docs/measured/results-methods.md",
   },
   state: { wall: true, things: 4, steps: 4, runs: 3, eye: "-0.35,0.3" },
   figure(f) {

@@ -14,13 +14,14 @@ Then solve the linear system of chapter 2: all bounces at once, without one more
 bounce. Rows are scaled to sum to 1, so no energy is made or lost. The engine adds shadow rays to the lamp and points that
 are spread evenly.</p>
 <p>The matrix is what <b>both</b> ways give from few rays; beside it are the rays of the chosen patch. The chart compares
-with shooting: read off, at the same error, how many times the rays. Turn the reflectance up: shooting needs more rays for
-more bounces, stored transport does not.</p>
-<p>Its weakness: all rays that are kept take memory, a few bytes each, and each patch must have some. Where light comes
-from one spot and most patches do not matter, shooting goes straight to them.</p>`,
+with shooting: read off, at the same error, how many times the rays. Turn the reflectance up: the same rays
+serve all the further bounces, and their error hardly grows.</p>
+<p>Its weakness: all rays that are kept take memory, and each patch must have some, even in a corner that no light
+reaches. Shooting sends none from there.</p>`,
   source: {
     section: "2 and 3", sentence: "Instead of keeping the whole system of equations to complete the energy exchange of the environment, a useful solution is computed.",
     pages: ["src/radiosity/engine/stored_transport/page/stored_transport.cpp", "src/radiosity/engine/methods/stored_transport.cpp"],
+    measured: "docs/measured/results-methods.md",
   },
   state: { rays: 64, reflectance: 0.6, patch: 100, eye: "0.12,0.1" },
   figure(f) {

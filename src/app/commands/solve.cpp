@@ -14,6 +14,7 @@
 #include "app/loading/reference.h"
 #include "app/memory/memory.h"
 #include "app/rendering/view.h"
+#include "app/report/half_light.h"
 #include "app/running/checkpointing.h"
 #include "app/running/run_files.h"
 #include "app/running/run_notes.h"
@@ -37,6 +38,7 @@
 #include "radiosity/engine/solving/shared_stop.h"
 
 #include <algorithm>
+#include <bit>
 #include <filesystem>
 #include <span>
 #include <system_error>
@@ -76,6 +78,8 @@ struct Problem {
 struct Run {
     std::unique_ptr<Solver> solver;
     std::vector<StepRow> rows;
+    std::vector<LightOfStep> lights; ///< light after steps 1, 2, 4 and so on, for a page
+    double unit = 1;                 ///< unit of these lights [W/m2]
     RunNotes notes;
     std::optional<InputError> fault = {}; ///< fault in a step; the steps before it are written
     bool completed = false;
@@ -235,6 +239,7 @@ Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference
     const bool is_begun = divided.begun && !resumed;
     Run done{.solver = is_begun ? std::move(divided.begun) : begin(problem),
              .rows = {},
+             .lights = {},
              .notes = RunNotes(stop, settings.work().estimates_error)};
     log_rays_of_step(settings.verbosity, settings.options.rays, problem.options.rays);
     Before before = divided.before();
@@ -250,6 +255,13 @@ Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference
         done.rows.push_back({std::string(settings.method->name), 0, record, std::nullopt});
         progress.step_done(record);
     };
+    const auto keep_light = [&](const Solution& solution) {
+        if (settings.report.empty() || !std::has_single_bit(solution.steps))
+            return;
+        if (done.lights.empty())
+            done.unit = mean_light(mesh, solution.radiosity);
+        done.lights.push_back({solution.steps, halves_of(solution.radiosity, done.unit)});
+    };
     const auto show_last_row = [&](const Solution& solution) {
         if (reference)
             done.rows.back().error = reference->error(mesh, solution.radiosity);
@@ -259,6 +271,7 @@ Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference
     };
     const auto after_step = [&](const StepRecord& record, const Solution& solution) {
         add_row(record);
+        keep_light(solution);
         show_last_row(solution);
         checkpointer.step_done(done.rows, record.seconds);
     };
@@ -348,10 +361,13 @@ int write(const Problem& problem, const Run& done, const Solution& solution, Sta
     const OnThisRank works_alone(problem.monitor.interrupted);
     const bool interrupted = !done.completed && !done.fault;
     settings.view.camera = done.camera;
+    std::span<const LightOfStep> lights = done.lights;
+    if (!lights.empty() && lights.back().step == solution.steps) // which is shown as the last one
+        lights = lights.first(lights.size() - 1);
     const int code = finish(settings,
                             {problem.mesh(), problem.tracer(), solution, settings.options,
-                             statistics, done.rows, loaded.points, gathered, loaded.file_lightmap,
-                             loaded.scene.warnings, problem.monitor},
+                             statistics, done.rows, lights, done.unit, loaded.points, gathered,
+                             loaded.file_lightmap, loaded.scene.warnings, problem.monitor},
                             done.written, reference, done.notes, interrupted, started,
                             loaded.resumed ? loaded.resumed->seconds : 0);
     if (interrupted && !settings.ranks->are_several())

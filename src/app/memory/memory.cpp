@@ -48,7 +48,7 @@ constexpr double bytes_per_layered_pixel = 60;
 
 /// The bytes per patch of what is written, with what is made for it.
 namespace of_patch {
-constexpr double table = 50, mesh = 200, vtu = 550, report = 300;
+constexpr double table = 50, mesh = 200, vtu = 550, report = 430;
 constexpr double state = 300, copies_of_state = 3; ///< of a checkpoint
 } // namespace of_patch
 

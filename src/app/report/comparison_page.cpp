@@ -6,28 +6,6 @@
 #include "radiosity/paper/scene/mesh.h"
 
 namespace hemilux {
-namespace {
-
-void write_halves(PageFile& page, const std::string& id, std::span<const std::uint16_t> halves) {
-    page.array(id, halves.size() / 3, [&](std::size_t i, std::string& bytes) {
-        for (const std::uint16_t half : halves.subspan(3 * i, 3))
-            append_number(bytes, half);
-    });
-}
-
-} // namespace
-
-double mean_light(const Mesh& mesh, std::span<const Vec3> radiosity) {
-    double sum = 0, area = 0;
-    for (std::size_t i = 0; i < radiosity.size(); ++i) {
-        const Patch& patch = mesh.patches()[i];
-        if (mesh.material(patch).is_far)
-            continue;
-        sum += patch.area * glm::dot(radiosity[i], Vec3(1.0)) / 3;
-        area += patch.area;
-    }
-    return sum > 0 ? sum / area : 1;
-}
 
 void write_comparison_page(const std::string& path, const ComparisonContent& content) {
     PageFile page(path, assets::compare_markup);

@@ -22,7 +22,4 @@ namespace hemilux {
 /// Writes the page, array by array. Throws OutputError and Interrupted.
 void write_comparison_page(const std::string& path, const ComparisonContent& content);
 
-/// Returns the mean of the radiosity over area and channels [W/m2]; 1 where there is none.
-[[nodiscard]] double mean_light(const Mesh& mesh, std::span<const Vec3> radiosity);
-
 } // namespace hemilux

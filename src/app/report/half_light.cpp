@@ -1,5 +1,7 @@
 #include "app/report/half_light.h"
 
+#include "radiosity/paper/scene/mesh.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -25,6 +27,18 @@ std::vector<std::uint16_t> halves_of(std::span<const Vec3> radiosity, double uni
         for (int channel = 0; channel < 3; ++channel)
             halves.push_back(half_of(light[channel] / unit));
     return halves;
+}
+
+double mean_light(const Mesh& mesh, std::span<const Vec3> radiosity) {
+    double sum = 0, area = 0;
+    for (std::size_t i = 0; i < radiosity.size(); ++i) {
+        const Patch& patch = mesh.patches()[i];
+        if (mesh.material(patch).is_far)
+            continue;
+        sum += patch.area * glm::dot(radiosity[i], Vec3(1.0)) / 3;
+        area += patch.area;
+    }
+    return sum > 0 ? sum / area : 1;
 }
 
 } // namespace hemilux

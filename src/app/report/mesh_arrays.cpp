@@ -9,6 +9,13 @@
 
 namespace hemilux {
 
+void write_halves(PageFile& page, const std::string& id, std::span<const std::uint16_t> halves) {
+    page.array(id, halves.size() / 3, [&](std::size_t i, std::string& bytes) {
+        for (const std::uint16_t half : halves.subspan(3 * i, 3))
+            append_number(bytes, half);
+    });
+}
+
 void write_mesh_arrays(PageFile& page, const Mesh& mesh, const CornerClasses& classes) {
     const double unit = 1 / mesh.frame().scale;
     write_numbers(page, "position", classes.position.size(),

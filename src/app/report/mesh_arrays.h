@@ -7,6 +7,7 @@
 #include "io/results/smooth.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace hemilux {
@@ -25,6 +26,9 @@ template <class Value>
 void write_numbers(PageFile& page, const char* id, std::size_t count, const Value& value_of) {
     page.array(id, count, [&](std::size_t i, std::string& bytes) { append(bytes, value_of(i)); });
 }
+
+/// Writes the element `id` with three halves for each patch (readHalves of data.js).
+void write_halves(PageFile& page, const std::string& id, std::span<const std::uint16_t> halves);
 
 /// Writes position, corners, triangles, area, face, material and group, and where there are
 /// textures reflectance and emission, as report_page.h lists them.

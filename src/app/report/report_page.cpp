@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <string>
 #include <vector>
 
 namespace hemilux {
@@ -59,6 +60,8 @@ void write_report_page(const std::string& path, const ReportContent& content) {
     page.json("run", run_json(content));
     write_mesh_arrays(page, content.mesh, classes);
     write_light(page, content, classes);
+    for (const LightOfStep& light : content.lights)
+        write_halves(page, "light-" + std::to_string(light.step), light.halves);
     if (content.densities)
         write_densities(page, *content.densities, content.mesh.patches().size());
     page.finish(assets::solve_script);

@@ -21,10 +21,11 @@
 //   shares       float32      of each triangle: its part of a diffuse patch's power
 //   counts       uint8        of each patch at each vertex: surfaces, 254 or more; 255: not counted
 //                             (these four where the method is guided by densities)
+//   light-1, -2, -4 ...  float16 x 3  radiosity after these steps, as multiples of `unit`
 //   reflectance, emission  float32 x 3, where there are textures: means over each patch
 //
-// That is 60 bytes a patch, 84 with textures, 41 more with densities of depth 2, 24 a vertex, and
-// 16 a listed triangle; base64 makes 4 of 3.
+// That is 60 bytes a patch, 84 with textures, 41 more with densities of depth 2, 6 for each step
+// that has its light, 24 a vertex, and 16 a listed triangle; base64 makes 4 of 3.
 
 #include "app/report/run_data.h"
 

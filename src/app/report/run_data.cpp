@@ -73,13 +73,18 @@ std::string text_of(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+Json lit_steps(std::span<const LightOfStep> lights) {
+    Json list = Json::array();
+    for (const LightOfStep& light : lights)
+        list.push_back(light.step);
+    return list;
+}
+
 Json methods_json(std::span<const ComparedMethod> methods) {
     Json list = Json::array();
     for (const ComparedMethod& method : methods) {
-        Json steps = Json::array();
-        for (const LightOfStep& light : method.lights)
-            steps.push_back(light.step);
-        list.push_back({{"name", method.name}, {"label", method.label}, {"steps", steps}});
+        list.push_back(
+            {{"name", method.name}, {"label", method.label}, {"steps", lit_steps(method.lights)}});
     }
     return list;
 }
@@ -113,6 +118,8 @@ std::string run_json(const ReportContent& content) {
     run["statistics"] = Json::parse(to_json(content.statistics));
     run["steps"] = steps_json(content.steps);
     run["charts"] = charts_json({&chart, 1});
+    run["unit"] = content.unit;
+    run["lit_steps"] = lit_steps(content.lights);
     if (content.densities)
         run["threshold"] = content.densities->threshold;
     return text_of(run);

@@ -25,6 +25,12 @@ struct ReportDensities {
     double threshold; ///< is_divided()
 };
 
+/// The light that a method had found after some step.
+struct LightOfStep {
+    std::uint32_t step = 0;
+    std::vector<std::uint16_t> halves; ///< halves_of()
+};
+
 /// The content of a report; it refers to what lives in the caller.
 struct ReportContent {
     const Mesh& mesh;
@@ -36,19 +42,15 @@ struct ReportContent {
     std::string command;                        ///< the command line
     Camera camera;                              ///< the first view
     std::optional<double> exposure;             ///< empty: the page chooses one
+    std::span<const LightOfStep> lights;        ///< light after steps before the last, ascending
+    double unit = 1;                            ///< unit of these lights [W/m2]
     const ReportDensities* densities = nullptr; ///< densities of methods that have them
 };
 
 /// Returns the JSON. The keys are scene, command, version, machine, centre, materials, groups,
-/// camera, exposure, warnings, statistics (as of to_json), steps, charts (name and svg) and, where
-/// there are densities, threshold.
+/// camera, exposure, warnings, statistics (as of to_json), steps, charts (name and svg), unit,
+/// lit_steps (those before the last with a light) and, where there are densities, threshold.
 [[nodiscard]] std::string run_json(const ReportContent& content);
-
-/// The light that a method had found after some step.
-struct LightOfStep {
-    std::uint32_t step = 0;
-    std::vector<std::uint16_t> halves; ///< halves_of()
-};
 
 /// A method of a comparison.
 struct ComparedMethod {

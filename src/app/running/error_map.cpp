@@ -29,13 +29,15 @@ void limit_to_most(std::vector<double>& errors) {
 } // namespace
 
 void write_error_map(const std::string& path, const ViewSettings& view, const Results& results) {
-    const auto& [mesh, tracer, solution, options, statistics, steps, points, gathered,
-                 file_lightmap, warnings, monitor] = results;
-    const PictureTime time(monitor.interrupted.own().wished);
+    const Mesh& mesh = results.mesh;
+    const Tracer& tracer = results.tracer;
+    const SolveOptions& options = results.options;
+    StopFlag& interrupted = results.monitor.interrupted;
+    const PictureTime time(interrupted.own().wished);
     const Camera camera = camera_of(view, results.lit());
     std::vector<double> errors =
-        patch_error_levels(mesh, tracer, solution, hash_words({options.seed, 3}),
-                           Workers(options.threads), monitor.interrupted);
+        patch_error_levels(mesh, tracer, results.solution, hash_words({options.seed, 3}),
+                           Workers(options.threads), interrupted);
     if (errors.empty())
         throw Interrupted();
     limit_to_most(errors);

@@ -196,27 +196,28 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
 }
 
 void write_report(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, options, statistics, steps, points, gathered,
-                 file_lightmap, warnings, monitor] = results;
-    ReportContent content{mesh,
-                          solution,
-                          statistics,
-                          steps,
-                          warnings,
+    const SolveOptions& options = results.options;
+    ReportContent content{results.mesh,
+                          results.solution,
+                          results.statistics,
+                          results.steps,
+                          results.warnings,
                           settings.scene.path,
                           settings.from.command,
                           camera_of(settings.view, results.lit()),
-                          settings.view.exposure};
+                          settings.view.exposure,
+                          results.lights,
+                          results.unit};
     const bool by_densities =
         settings.method == &method_of(Role::paper) && !guide_of(options) && !settings.plain;
     if (!by_densities)
         return write_report_page(settings.report, content);
     // The densities are counted again, as the method does not keep all.
     const Hemisphere hemisphere(options.depth);
-    const DensityMap map(mesh, tracer, hemisphere, options.threshold, Workers(options.threads),
-                         monitor);
+    const DensityMap map(results.mesh, results.tracer, hemisphere, options.threshold,
+                         Workers(options.threads), results.monitor);
     const ReportDensities densities{hemisphere, map, options.threshold};
-    if (!monitor.interrupted)
+    if (!results.monitor.interrupted)
         content.densities = &densities;
     write_report_page(settings.report, content);
 }

@@ -3,6 +3,7 @@
 
 #include "app/gathering/gathered_light.h"
 #include "app/rendering/view.h"
+#include "app/report/run_data.h"
 #include "app/running/write_report.h"
 #include "app/settings/settings.h"
 #include "app/terminal/stopwatch.h"
@@ -25,6 +26,8 @@ struct Results {
     const SolveOptions& options; ///< of the run: seed, threads, how hemispheres are divided
     Statistics& statistics;      ///< all but the seconds of outputs
     std::span<const StepRow> steps;
+    std::span<const LightOfStep> lights; ///< light after some of the steps, for a page
+    double unit;                         ///< unit of these lights [W/m2]
     std::span<const NamedPoint> points;
     const GatheredLight& gathered;
     const FileLightmap& file_lightmap;     ///< of `bake`

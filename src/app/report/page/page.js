@@ -18,18 +18,30 @@ function showScene(run) {
     view.exposure = layer.light ? factors.get(layer) * 2 ** stops : 0;
     view.redraw();
   };
+  const isLast = () => Number(at("slider").value) === run.lights.length - 1;
   const current = () => layers[Number(at("layer").value)];
   const showLayer = () => {
     const layer = current();
     layer.follow?.();
-    const smooth = layer.light && layer.smooth && at("smooth").checked;
+    const smooth = layer.light && layer.smooth && at("smooth").checked && isLast();
     view.paint(smooth ? layer.smooth : layer.light ? layer.flat : layer.colourOf);
     at("exposure").disabled = !layer.light;
-    at("smooth").disabled = !(layer.light && layer.smooth);
+    at("smooth").disabled = !(layer.light && layer.smooth && isLast());
     at("legend").hidden = layer.high === undefined;
     for (const part of ["low", "high", "unit"]) at("legend-" + part).textContent = layer[part] ?? "";
     expose(layer);
   };
+  const slider = at("slider");
+  slider.value = slider.max = run.lights.length - 1;
+  at("step-label").hidden = run.lights.length < 2;
+  const showStep = () => {
+    const { step, light } = run.lights[Number(slider.value)];
+    at("step").textContent = step;
+    run.radiosity = light;
+    showLayer();
+    describePatch(run, view.selected);
+  };
+  slider.addEventListener("input", showStep);
   at("ramp").style.background = rampGradient();
   at("layer").addEventListener("change", showLayer);
   at("smooth").addEventListener("change", showLayer);
@@ -37,7 +49,7 @@ function showScene(run) {
   at("reset").addEventListener("click", () => { camera.reset(); view.redraw(); });
   at("controls").addEventListener("submit", (event) => event.preventDefault());
   new ResizeObserver(() => view.redraw()).observe(at("canvas"));
-  showLayer();
+  showStep();
   view.layers = layers;
   view.select = (patch) => {
     view.selected = patch;
@@ -143,4 +155,12 @@ function showPage(run) {
   return view;
 }
 
-const hemiluxPage = showPage(readRun());
+/** The data of the page. Its lights are those after steps 1, 2, 4 and so on, and the last one. */
+function readSolved() {
+  const run = readRun();
+  run.lights = [...run.lit_steps.map((step) => ({ step, light: readHalves("light-" + step, run.unit) })),
+    { step: run.statistics.steps, light: run.radiosity }];
+  return run;
+}
+
+const hemiluxPage = showPage(readSolved());
