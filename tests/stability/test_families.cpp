@@ -133,8 +133,8 @@ TEST_CASE("Stored transport reports an error in which one can trust: one scene o
 }
 
 TEST_CASE("Every other method reports an error in which one can trust", "[slow]") {
-    // Each takes one scene of eight, other ones than the next method.
-    constexpr std::size_t share = 8;
+    // Each takes one scene of sixteen, other ones than the next method.
+    constexpr std::size_t share = 16;
     std::size_t turn = 0;
     for (const Method* const method : methods()) {
         if (method->name == "stored-transport")

@@ -119,7 +119,7 @@ TEST_CASE("a bright room does not light its dim neighbour by a floor that both s
     }
 }
 
-TEST_CASE("a small picture is right within the error asked for") {
+TEST_CASE("a small picture is right within the error asked for", "[slow]") {
     // Between the points of its grid the light of the near lamp changes by more than that.
     const Workplace place;
     place.write_room();
@@ -132,7 +132,7 @@ TEST_CASE("a small picture is right within the error asked for") {
     }
 }
 
-TEST_CASE("the error of gathered light is found as exactly as it is asked for") {
+TEST_CASE("the error of gathered light is found as exactly as it is asked for", "[slow]") {
     const Workplace place;
     place.write_room();
     const auto relative_uncertainty = [&](const std::string& options) {

@@ -280,7 +280,7 @@ TEST_CASE("runs killed at random moments resume", "[slow]") {
                 4);
 }
 
-TEST_CASE("runs of every method that saves resume, killed at 40 random moments", "[slow]") {
+TEST_CASE("runs of every method that saves resume, killed at 16 random moments", "[slow]") {
     const Workplace place;
     place.write_room();
     for (const hemilux::Method* const method : hemilux::methods()) {
@@ -288,7 +288,7 @@ TEST_CASE("runs of every method that saves resume, killed at 40 random moments",
             continue;
         const std::string steps = method->name == "stored-transport" ? "40" : "150";
         CAPTURE(method->name);
-        check_kills(place, 40,
+        check_kills(place, 16,
                     "solve room.obj --rays 100 --max-edge .1 --steps " + steps + " --method " +
                         std::string(method->name),
                     3);

@@ -236,8 +236,8 @@ TEST_CASE("Pages have the engine's bits on 3576 patches", "[slow]") {
     const Model model(example_scene("office_3576"));
     for (const Method* const one : methods())
         if (has_same_bits(*one)) {
-            check_same(model, *one, with_rays(16), 3);
+            check_same(model, *one, with_rays(8), 2);
             if (one->has_literal)
-                check_same(model, *one, with_rays(16, true), 2);
+                check_same(model, *one, with_rays(8, true), 1);
         }
 }
