@@ -170,7 +170,7 @@ Prepared prepare(LoadedMesh& loaded, const SolveOptions& options, Verbosity verb
         else if (part == 0)
             return;
         else if (options.keep_all)
-            prepared.needs.closed = is_convex_enclosure(mesh);
+            prepared.needs.closed = convex_enclosure(mesh) == Enclosure::tight;
         else
             prepared.needs = find_needs(mesh);
     });

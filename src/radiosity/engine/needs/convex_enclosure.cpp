@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace hemilux {
@@ -69,19 +71,76 @@ bool all_in_front(const FacetSoup& soup) {
     });
 }
 
-/// Returns whether each edge belongs to two facets that run along it in opposite directions.
-bool is_closed(const Scene& scene) {
-    bool closed = true;
-    for_each_place(welded_edges(scene), [&](auto first, auto last) {
-        closed = closed && last - first == 2 && first[0].forward != first[1].forward;
+/// Returns whether two facets and no more run along an edge, in opposite directions.
+template <class Iterator>
+bool is_shared(Iterator first, Iterator last) {
+    return last - first == 2 && first[0].forward != first[1].forward;
+}
+
+/// Returns the edges that do not belong to two facets that run along them in opposite directions.
+std::vector<Edge> unshared(const std::vector<Edge>& edges) {
+    std::vector<Edge> alone;
+    for_each_place(edges, [&](auto first, auto last) {
+        if (!is_shared(first, last))
+            alone.insert(alone.end(), first, last);
     });
-    return closed;
+    return alone;
+}
+
+std::array<std::uint32_t, 2> ends_of(const Edge& edge) {
+    return {static_cast<std::uint32_t>(edge.ends >> 32), static_cast<std::uint32_t>(edge.ends)};
+}
+
+/// Cuts an edge at those of the vertices that lie between its ends, and appends the pieces.
+void cut(const Edge& edge, std::span<const Vec3> position, std::span<const std::uint32_t> vertices,
+         std::vector<Edge>& pieces) {
+    const auto [a, b] = ends_of(edge);
+    const Vec3 along = position[b] - position[a];
+    const double length = glm::length(along);
+    std::vector<std::pair<double, std::uint32_t>> stops{{0, a}, {1, b}};
+    for (const std::uint32_t v : vertices) {
+        const Vec3 to = position[v] - position[a];
+        const double share = glm::dot(to, along) / (length * length);
+        if (share > 0 && share < 1 && v != a && v != b && glm::length(to - share * along) <= slack)
+            stops.emplace_back(share, v);
+    }
+    std::ranges::sort(stops);
+    for (std::size_t k = 0; k + 1 < stops.size(); ++k) {
+        const std::uint64_t p = stops[k].second, q = stops[k + 1].second;
+        pieces.push_back(
+            {std::min(p, q) << 32 | std::max(p, q), edge.facet, edge.forward == (p < q)});
+    }
+}
+
+/// Returns whether edges lie along each other when they are cut at each other's ends: each piece
+/// then belongs to two of them in opposite directions.
+bool match_in_pieces(const std::vector<Edge>& edges, const Mesh& mesh) {
+    std::set<std::uint32_t> ends;
+    for (const Edge& edge : edges)
+        for (const std::uint32_t v : ends_of(edge))
+            ends.insert(v);
+    if (static_cast<double>(edges.size()) * static_cast<double>(ends.size()) > max_pairs)
+        return false;
+    const std::vector<std::uint32_t> vertices(ends.begin(), ends.end());
+    std::vector<Vec3> position = mesh.scene().vertices;
+    for (Vec3& p : position)
+        p = mesh.frame().to_local(p);
+    std::vector<Edge> pieces;
+    for (const Edge& edge : edges)
+        cut(edge, position, vertices, pieces);
+    std::ranges::sort(pieces, {}, &Edge::ends);
+    return unshared(pieces).empty();
 }
 
 } // namespace
 
-bool is_convex_enclosure(const Mesh& mesh) {
-    return all_in_front(mesh.soup()) && is_closed(mesh.scene());
+Enclosure convex_enclosure(const Mesh& mesh) {
+    if (!all_in_front(mesh.soup()))
+        return Enclosure::not_found;
+    const std::vector<Edge> alone = unshared(welded_edges(mesh.scene()));
+    if (alone.empty())
+        return Enclosure::tight;
+    return match_in_pieces(alone, mesh) ? Enclosure::cut_edges : Enclosure::not_found;
 }
 
 } // namespace hemilux

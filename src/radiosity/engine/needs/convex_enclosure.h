@@ -6,10 +6,15 @@ namespace hemilux {
 
 class Mesh;
 
-/// Returns true if each plane has all vertices in front of it, and each edge belongs to two facets
-/// that run along it in opposite directions. It returns false where that would take too long to
-/// find out, in a room of some thousands of planes and vertices. It also does for a room whose
-/// walls are cut at different points of an edge.
-[[nodiscard]] bool is_convex_enclosure(const Mesh& mesh);
+enum class Enclosure {
+    not_found, ///< not a closed convex room, or not found to be one in time
+    cut_edges, ///< one whose walls are cut at different points of an edge
+    tight      ///< one whose facets share all corners and edges, so that no ray leaks out
+};
+
+/// In a closed convex room each plane has all vertices in front of it, and each edge, or each piece
+/// of an edge that corners of others cut, belongs to two facets that run along it in opposite
+/// directions. It is not looked for among some thousands of planes and vertices.
+[[nodiscard]] Enclosure convex_enclosure(const Mesh& mesh);
 
 } // namespace hemilux

@@ -49,8 +49,9 @@ Needs find_needs(const Mesh& mesh) {
         const Material& material = mesh.material(patch);
         return !is_grey(material.reflectance) || !is_grey(material.emission);
     });
-    needs.closed = is_convex_enclosure(mesh);
-    needs.visibility = !needs.closed;
+    const Enclosure room = convex_enclosure(mesh);
+    needs.closed = room == Enclosure::tight;
+    needs.visibility = room == Enclosure::not_found;
     needs.tree = needs_tree(mesh);
     find_idle_patches(mesh, needs);
     return needs;

@@ -105,7 +105,9 @@ std::vector<bool> lit_by_looking_at_all_pairs(const Mesh& mesh) {
 } // namespace
 
 TEST_CASE("A closed convex room is told from all else") {
-    const auto convex = [](const Scene& scene) { return is_convex_enclosure(Mesh(scene)); };
+    const auto convex = [](const Scene& scene) {
+        return convex_enclosure(Mesh(scene)) == Enclosure::tight;
+    };
     CHECK(convex(grey_cube()));
     CHECK(convex(test::furnace_box(1, .5)));
     CHECK(convex(test::sphere(3, 2, .5, 1)));
@@ -146,8 +148,61 @@ TEST_CASE("A closed convex room is told from all else") {
     CHECK(convex(untidy));
 }
 
+namespace {
+
+/// A cube whose ceiling is of n x n quads, with the lamp in the middle, and whose walls are whole.
+/// It is turned, so that coordinates are rounded.
+Scene cube_with_cut_ceiling(std::uint32_t n) {
+    Scene scene = test::box_room(Vec3(0.0), Vec3(1.0), 1, {{"wall", Vec3(.5), Vec3(0.0)}},
+                                 {0, 0, 0, 0, 0, 0});
+    std::erase_if(scene.facets, [&](const Facet& facet) {
+        return std::ranges::all_of(facet.vertex, [&](auto v) { return scene.vertices[v].y == 1; });
+    });
+    scene.materials.push_back({"lamp", Vec3(.3), Vec3(4.0)});
+    const auto at = [n](std::uint32_t k) { return double(k) / n; };
+    for (std::uint32_t i = 0; i < n; ++i)
+        for (std::uint32_t j = 0; j < n; ++j)
+            test::add_quad(scene, {at(i), 1, at(j)}, {at(i + 1), 1, at(j)},
+                           {at(i + 1), 1, at(j + 1)}, {at(i), 1, at(j + 1)}, 1, 1,
+                           i == n / 2 && j == n / 2 ? 1 : 0);
+    for (Vec3& v : scene.vertices)
+        v = Vec3(.8 * v.x - .6 * v.y, .6 * v.x + .8 * v.y, v.z);
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("A convex room whose walls are cut at different points is one, and may leak") {
+    const auto room = [](const Scene& scene) { return convex_enclosure(Mesh(scene)); };
+    CHECK(room(grey_cube()) == Enclosure::tight);
+    CHECK(room(cube_with_cut_ceiling(1)) == Enclosure::tight);
+    for (const std::uint32_t n : {2u, 3u, 7u}) {
+        const Scene cut = cube_with_cut_ceiling(n);
+        CHECK(room(cut) == Enclosure::cut_edges);
+        CHECK_FALSE(find_needs(Mesh(cut)).visibility);
+        CHECK_FALSE(find_needs(Mesh(cut)).closed);
+        for (std::size_t gone = 0; gone < cut.facets.size(); ++gone) {
+            Scene open = cut;
+            open.facets.erase(open.facets.begin() + std::ptrdiff_t(gone));
+            CHECK(room(open) == Enclosure::not_found);
+            Scene doubled = cut;
+            doubled.facets.push_back(cut.facets[gone]);
+            CHECK(room(doubled) == Enclosure::not_found);
+            Scene turned = cut;
+            std::ranges::reverse(turned.facets[gone].vertex);
+            CHECK(room(turned) == Enclosure::not_found);
+        }
+    }
+    Scene apart = cube_with_cut_ceiling(2); // a corner off the edge by more than rounding
+    const Vec3 corner = apart.vertices[apart.facets.back().vertex[1]];
+    for (Vec3& v : apart.vertices)
+        if (v == corner)
+            v -= 1e-3 * Vec3(.8, .6, 0);
+    CHECK(room(apart) == Enclosure::not_found);
+}
+
 TEST_CASE("In a convex enclosure all densities are 1 and nothing hides a patch") {
-    for (const Scene& scene : {grey_cube(), test::sphere(2, 1, .5, 1)}) {
+    for (const Scene& scene : {grey_cube(), test::sphere(2, 1, .5, 1), cube_with_cut_ceiling(3)}) {
         const Model model(scene);
         const Hemisphere hemisphere(2);
         Monitor monitor;
@@ -290,6 +345,7 @@ TEST_CASE("What is left out keeps every byte where that is promised, else the re
     };
     const std::vector<Case> cases{
         {grey_cube(), {}, Omission::convex, {"colour", "densities", "visibility"}},
+        {cube_with_cut_ceiling(3), {.max_edge = .4}, Omission::convex, {"densities", "visibility"}},
         {test::sphere(0, 1, .5, 1), {.max_edge = .4}, Omission::convex, {"colour", "hierarchy"}},
         {test::sphere(2, 1, .5, 1), {}, Omission::convex, {"densities"}},
         {test::room_with_block(), {.two_sided = true}, Omission::unlit, {"no light"}},
