@@ -82,7 +82,7 @@ std::string fault_of(const gltf::PlacesOfFile& places, const Mesh& mesh, int siz
 
 void check_memory_of(int size, const SolveSettings& settings) {
     const std::optional<std::uint64_t>& limit = settings.scene.memory;
-    if (limit && bytes_of_lightmap(size) > double(*limit))
+    if (limit && bytes_of_lightmap(size, true) > double(*limit))
         throw std::runtime_error("a lightmap of " + std::to_string(size) + " x " +
                                  std::to_string(size) +
                                  " texels needs more memory than --memory allows");

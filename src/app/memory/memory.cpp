@@ -187,10 +187,11 @@ double bytes_of_picture(PixelSize size, bool gathered) {
            static_cast<double>(size.width) * size.height;
 }
 
-double bytes_of_lightmap(int size) {
-    // What a texel shows, its share of a point that gathers, its light; then channels and files.
-    constexpr double bytes_per_texel = 16 + 64 + 16 + 36;
-    return bytes_per_texel * size * size;
+double bytes_of_lightmap(int size, bool gathered) {
+    // What a texel shows, and the picture and its files; its share of a point that gathers, its
+    // light.
+    constexpr double per_texel = 16 + 36, per_gathered_texel = 64 + 16;
+    return (per_texel + (gathered ? per_gathered_texel : 0)) * size * size;
 }
 
 double bytes_of_points(std::size_t points, unsigned gather) {
@@ -202,7 +203,7 @@ double bytes_of_points(std::size_t points, unsigned gather) {
 }
 
 double bytes_of_results(const SolveSettings& settings, double patches) {
-    double bytes = bytes_of_lightmap(settings.lightmap.value_or(0));
+    double bytes = bytes_of_lightmap(settings.lightmap.value_or(0), settings.gather_pictures);
     bool has_picture = !settings.error_map.empty(), has_layers = false;
     for (const Output& output : settings.outputs) {
         has_picture |= is_picture(output.kind);

@@ -51,8 +51,13 @@ const std::vector<Stage>& stages() {
         {"solve room.obj --method stratified --steps 1 --max-edge .02 --bake indirect --gather "
          "1024 -v -o a.csv -o a.glb",
          "step 1:", "a.csv"},
+        {"bake room.glb --emission *=1,1,1 --reflectance *=.5,.5,.5 --texels-per-metre 400 "
+         "--gather 1024 --max-rays "
+         "100000000000 -v -o lit.glb",
+         "step 1:", "lit.glb"},
         // Factors, densities, comparisons.
         {"formfactors room.obj --max-edge .005 --rays 1048576 -v -o f.csv", "", ""},
+        {"viewfactors room.obj --max-edge .2 --error 0.0001% -v -o f.csv", "", ""},
         {"density room.obj --max-edge .002 --depth 4 --threshold 0 -v -o d.svg", "", ""},
         {"compare room.obj --methods stratified --runs 1 --reference-error 0.0001% -v -o c",
          "reference, step 1", ""},
@@ -66,6 +71,7 @@ void write_inputs(const Workplace& place) {
     for (int i = 0; i < 20000; ++i)
         points += ".5,.5," + std::to_string(.1 + i * 4e-5) + ",0,0,1\n";
     place.write("points", points);
+    REQUIRE(place.hemilux("solve room.obj --divide none --steps 1 -q -o room.glb").code == 0);
 }
 
 } // namespace
