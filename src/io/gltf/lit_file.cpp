@@ -82,6 +82,7 @@ class Writer {
     void add_coordinates(const AtlasCoordinates& coordinates);
     Json& primitive_of(const PrimitiveOrigin& origin);
     void give_own_mesh(const PrimitiveOrigin& origin);
+    void place_instances(const PrimitiveOrigin& origin);
     void forget_instancing();
     std::size_t longer_copy(std::size_t accessor, const std::vector<std::uint32_t>& further);
     std::size_t add_accessor(std::string_view bytes, int target, const Json& elements);
@@ -97,6 +98,7 @@ class Writer {
     using Shown = std::pair<std::size_t, std::optional<std::size_t>>; ///< node, number of instance
     std::map<std::size_t, std::size_t> node_of_mesh_;                 ///< that a mesh is kept for
     std::map<Shown, std::size_t> mesh_of_; ///< where it is another one than in the file
+    std::map<Shown, std::size_t> node_of_instance_;
 };
 
 Json& Writer::array_of(const char* name) {
@@ -270,20 +272,34 @@ void Writer::give_own_mesh(const PrimitiveOrigin& origin) {
         root_["nodes"][origin.node]["mesh"] = mesh;
         return;
     }
+    if (!node_of_instance_.contains({origin.node, origin.instance}))
+        place_instances(origin);
+    root_["nodes"][node_of_instance_.at({origin.node, origin.instance})]["mesh"] = mesh;
+}
+
+/// Makes a node of each instance of a node, also of those that have no area, and show nothing.
+void Writer::place_instances(const PrimitiveOrigin& origin) {
     const std::vector<Instance> placed =
         placed_meshes({origin.node, glm::dmat4(1.0)}, source_.buffers());
-    Json matrix = Json::array();
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            matrix.push_back(placed[*origin.instance].to_world[column][row]);
     Json& nodes = root_["nodes"];
     const std::string name = nodes[origin.node].value("name", "instance");
-    nodes.push_back({{"name", name + " " + std::to_string(*origin.instance)},
-                     {"mesh", mesh},
-                     {"matrix", matrix}});
-    const std::size_t child = nodes.size() - 1;
+    for (std::size_t k = 0; k < placed.size(); ++k) {
+        Json matrix = Json::array();
+        bool is_finite = true; // else JSON has no number for it
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 4; ++row) {
+                matrix.push_back(placed[k].to_world[column][row]);
+                is_finite = is_finite && std::isfinite(placed[k].to_world[column][row]);
+            }
+        if (!is_finite)
+            continue;
+        node_of_instance_[{origin.node, k}] = nodes.size();
+        nodes[origin.node]["children"].push_back(nodes.size());
+        nodes.push_back({{"name", name + " " + std::to_string(k)},
+                         {"mesh", origin.mesh},
+                         {"matrix", std::move(matrix)}});
+    }
     Json& parent = nodes[origin.node];
-    parent["children"].push_back(child);
     parent.erase("mesh");
     if (parent.contains("extensions"))
         parent["extensions"].erase(instancing_extension);

@@ -277,3 +277,21 @@ TEST_CASE("bake embeds no picture from outside the file's folder in silence") {
     CHECK(warned.code == 0);
     CHECK_THAT(warned.err, Contains("lies outside the scene's folder"));
 }
+
+TEST_CASE("bake keeps instances that are so far away that their triangles have no area") {
+    const Workplace place;
+    std::filesystem::copy(HEMILUX_SOURCE_DIR "/tests/fuzz/corpus/lit_file/far_instance.gltf",
+                          place.path("far.gltf"));
+    const auto run =
+        place.hemilux(std::string("bake far.gltf -o lit.glb --emission '*=1,1,1'") + fast);
+    CAPTURE(run.err);
+    REQUIRE(run.code == 0);
+    const Glb lit = glb_from(place.read("lit.glb"));
+    const Json& nodes = lit.json["nodes"];
+    REQUIRE(nodes[0]["children"] == Json::array({1, 2}));
+    CHECK_FALSE(nodes[0].contains("extensions"));
+    CHECK(nodes[2].contains("mesh"));
+    CHECK(nodes[1]["matrix"][12] == 0.0);
+    CHECK(nodes[2]["matrix"][12].get<double>() > 1e17);
+    CHECK_THAT(place.hemilux("info lit.glb").err, Contains("2 triangles without area"));
+}
