@@ -244,10 +244,11 @@ class Builder {
         const Vec3 second = glm::cross(p[2] - p[0], p[3] - p[0]);
         const double a = glm::length(first), b = glm::length(second);
         const double angle = glm::length(glm::cross(first, second)) / (a * b);
-        const auto min_error = [](const Vec3& e1, const Vec3& e2) { // over all origins
-            const Vec3 e = glm::max(glm::abs(e1), glm::abs(e2));
-            const double longest = std::max({e.x, e.y, e.z});
-            return error_share * longest * (longest + error_offset);
+        const auto largest = [](const Vec3& v) { return std::max({v.x, v.y, v.z}); };
+        const double corner = largest(glm::abs(p[0]));               // at most |A| + |O|
+        const auto min_error = [&](const Vec3& e1, const Vec3& e2) { // over all origins
+            const double longest = largest(glm::max(glm::abs(e1), glm::abs(e2)));
+            return error_share * longest * (longest + error_offset * corner);
         };
         constexpr double longest_direction = 1.75, small = .05;
         const bool hit_by_undecided_rays_only =

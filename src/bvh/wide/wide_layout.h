@@ -13,8 +13,9 @@
 namespace hemilux::wide {
 
 /// The kernels' error bound (kernels/conservative_test.h) is the first times E (|A| + E + the
-/// second). E is the largest component of a triangle's edges, and A is its corner as seen from the
-/// ray's origin.
+/// second (|A| + |O|)). E is the largest component of a triangle's edges, A is its corner as seen
+/// from the ray's origin O. So a scene that is a hundredth of its bounds, as a sun or a sky makes
+/// it, is seen as sharply as any.
 inline constexpr float error_share = 80 * 0x1p-24f, error_offset = 0.15f;
 
 inline constexpr unsigned width = 8;

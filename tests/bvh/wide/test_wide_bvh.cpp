@@ -5,6 +5,7 @@
 #include "support/catch.h"
 #include "support/soups.h"
 
+#include <array>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -142,6 +143,20 @@ void check_streams(const WideBvh& bvh, const std::vector<Ray>& rays) {
     CHECK(occluded_differ == 0);
 }
 
+/// The soup, three hundred times smaller, in the middle of a box: as a scene lies under its sky.
+Soup under_sky(Soup soup) {
+    for (Vec3& v : soup.vertices)
+        v = v / 300.0 + Vec3(2e-4, -1e-4, 0);
+    const auto corner = [](unsigned k) {
+        return Vec3(k & 1 ? .9 : -.9, k & 2 ? .9 : -.9, k & 4 ? .9 : -.9);
+    };
+    for (const auto& [a, b, c, d] :
+         {std::array{0u, 2u, 3u, 1u}, std::array{4u, 5u, 7u, 6u}, std::array{0u, 1u, 5u, 4u},
+          std::array{2u, 6u, 7u, 3u}, std::array{0u, 4u, 6u, 2u}, std::array{1u, 3u, 7u, 5u}})
+        soup.quad(corner(a), corner(b), corner(c), corner(d));
+    return soup;
+}
+
 void check_soup(const Soup& soup, std::size_t rays, bool hierarchy = true) {
     const std::vector<Ray> alone = rays_for(soup, rays, 99),
                            together = rays_for(soup, rays / 2, 98);
@@ -225,6 +240,28 @@ TEST_CASE("The wide tree and what breaks tracers") {
         const Differences found({WideBvh(away.view()), rays}, {BruteForce(away.view()), rays});
         CHECK(found.closest == 0);
         CHECK(found.count == 0);
+    }
+}
+
+TEST_CASE("The wide tree and small scenes under a far sky") {
+    for (const Soup& inner :
+         {test::random_soup(300, 8), test::needles(100, 2), test::thin_walls(8, 1e-8, 5),
+          test::odd_quads(100, 2), test::warped_quads(100, 2)}) {
+        const Soup soup = under_sky(inner);
+        check_soup(soup, 1000); // from outside of the scene, and from beyond the sky
+        std::vector<Ray> rays = rays_for(soup, 1000, 12);
+        for (Ray& ray : rays) {
+            ray.origin /= 300.0;
+            ray.t_max /= 300.0;
+        }
+        for (const Ray& ray : rays_through_both_halves(soup, 2, 3))
+            rays.push_back(ray);
+        const Answers right(BruteForce(soup.view()), rays);
+        for (const InstructionSet kernels : available_instruction_sets()) {
+            const WideBvh wide_bvh(soup.view(), {.kernels = kernels});
+            check_streams(wide_bvh, rays);
+            check_answers(wide_bvh, right, rays);
+        }
     }
 }
 

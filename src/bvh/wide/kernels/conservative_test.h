@@ -27,10 +27,12 @@ inline F8 sum_abs(V3 a) { return abs(a.x) + abs(a.y) + abs(a.z); }
 inline F8 max_abs(V3 a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
 
 /// Bounds the error of U, W, D and D - U - W. The roundings of corner, origin and direction (2^-24
-/// of at most 1), of the edges and of each operation are counted. The error is then at most 2^-24 E
-/// (78 |A| + 63 E + 11) with E the largest edge component and |A| the sum of components.
-inline F8 error_bound(V3 a, F8 e) {
-    return F8::splat(error_share) * e * (sum_abs(a) + e + F8::splat(error_offset));
+/// of each component), of the edges and of each operation are counted. The error is then at most
+/// 2^-24 E (78 |A| + 63 E + 11 C) with E the largest edge component, |A| the sum of components and
+/// C the largest component of corner and origin, which is at most |A| + `origin`.
+inline F8 error_bound(V3 a, F8 e, float origin) {
+    return F8::splat(error_share) * e *
+           (F8::splat(1 + error_offset) * sum_abs(a) + e + F8::splat(error_offset * origin));
 }
 
 /// The outcome of one test, lane by lane.

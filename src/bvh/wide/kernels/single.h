@@ -78,7 +78,17 @@ struct LeafTest {
     [[nodiscard]] EdgeFunctions edge_functions(const FloatRay& ray) const {
         const V3 d = V3::splat(ray.direction);
         const V3 q = cross(a, d); // U = e2.(A x d), W = -e1.(A x d)
-        return {dot(e2, q), F8::splat(0) - dot(e1, q), dot(d, cross(e1, e2)), error_bound(a, e)};
+        return {dot(e2, q), F8::splat(0) - dot(e1, q), dot(d, cross(e1, e2)),
+                error_bound(a, e, reach(ray))};
+    }
+    /// Returns the largest component of the origin and what a ray from far away, which begins where
+    /// it enters the bounds, may be off by more.
+    [[nodiscard]] static float reach(const FloatRay& ray) {
+        constexpr float entered = 0.003f;
+        const float x = __builtin_fabsf(ray.origin[0]), y = __builtin_fabsf(ray.origin[1]),
+                    z = __builtin_fabsf(ray.origin[2]);
+        const float xy = x > y ? x : y;
+        return entered + (xy > z ? xy : z);
     }
 };
 
