@@ -30,6 +30,18 @@ def true_error(table, truth):
     return math.sqrt(max(square / size, 0.0)), mean / mean_truth
 
 
+def true_local_error(table, truth):
+    """What 95 of 100 points are within, relative to the light there."""
+    ratios = []
+    for row, halves in zip(table, truth):
+        pairs = [(light, halves[c], halves[c + 3]) for c, light in enumerate(row)]
+        size = sum(a * b for _, a, b in pairs)
+        if size > 0:
+            ratios.append(sum((light - a) * (light - b) for light, a, b in pairs) / size)
+    ratios.sort()
+    return math.sqrt(max(ratios[int(.95 * (len(ratios) - 1))], 0.0)) if ratios else math.nan
+
+
 def main():
     words = sys.argv[1:]
     options = []
@@ -63,11 +75,14 @@ def main():
             number = lambda x: math.nan if x is None else x
             estimated = number(found["estimated_error"])
             bound = number(found.get("error_bound"))
+            local = number(found.get("error_local"))
             rays = [found.get(k, 0) / 1e6
                     for k in ("rays_energy", "rays_learn", "rays_gather", "rays_division_error")]
             print(f"{os.path.basename(given.scene)} asked {100 * float(error):g} %: true "
                   f"{100 * off:.2f} %, estimated {100 * estimated:.2f} %, bound {100 * bound:.2f} %"
-                  f"{' WRONG' if off > bound else ''}, mean {mean:.4f}; M rays "
+                  f"{' WRONG' if off > bound else ''}, mean {mean:.4f}; "
+                  f"95 of 100 points: true {100 * true_local_error(rows, truth):.2f} %, "
+                  f"estimated {100 * local:.2f} %; M rays "
                   + " + ".join(f"{x:.2f}" for x in rays) + f"; {seconds:.2f} s", flush=True)
 
 

@@ -1,6 +1,7 @@
 #include "io/rendering/picture_error.h"
 
 #include "parallel/workers.h"
+#include "radiosity/light/cached_light/local_error.h"
 #include "radiosity/light/final_gather/final_gather.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace hemilux {
@@ -17,6 +19,9 @@ namespace {
 
 /// The number of places in a pixel for each of the two estimates.
 constexpr std::size_t places_in_pixel = 8;
+
+/// The number of parts of the picture whose errors are told apart.
+constexpr std::size_t parts_of_picture = 64;
 
 using Place = JudgedPixel::Place;
 
@@ -92,6 +97,9 @@ PictureError error_of_pixels(const Mesh& mesh, const Tracer& tracer, const Surfa
     const StopFlag never;
     const std::vector<Vec3> irradiance = gather.irradiance(at, streams, 1, workers, never);
     double products = 0, squares = 0, size = 0;
+    LocalErrors parts;
+    const std::size_t of_part = (pixels.size() + parts_of_picture - 1) / parts_of_picture;
+    double part_products = 0, part_size = 0;
     for (std::size_t k = 0, next = 0; k < pixels.size(); ++k) {
         std::array<Vec3, 2> off{}, reflected{};
         for (std::size_t j = 0; j < places; ++j, ++next) {
@@ -105,12 +113,16 @@ PictureError error_of_pixels(const Mesh& mesh, const Tracer& tracer, const Surfa
         products += product;
         squares += product * product;
         size += glm::dot(reflected[0], reflected[1]);
+        part_products += product;
+        part_size += glm::dot(reflected[0], reflected[1]);
+        if ((k + 1) % of_part == 0 || k + 1 == pixels.size())
+            parts.add(std::exchange(part_products, 0.0), std::exchange(part_size, 0.0));
     }
     if (!(size > 0))
         return {.rays = gather.rays()};
     const double square = std::max(products / size, 0.0), sigma = std::sqrt(squares) / size;
     const double error = std::sqrt(square);
-    return {error, std::sqrt(square + sigma) - error, gather.rays()};
+    return {error, std::sqrt(square + sigma) - error, parts.within(), gather.rays()};
 }
 
 } // namespace hemilux

@@ -21,6 +21,8 @@ class Workers;
 struct PictureError {
     double error = 0;
     double uncertainty = 0; ///< one sigma of `error`
+    /// What 95 of 100 parts of the picture are within, relative to the light there [-].
+    double local = 0;
     std::uint64_t rays = 0;
 };
 

@@ -62,6 +62,7 @@ Json to_object(const Statistics& s) {
                    {"estimated_error", s.estimated_error},
                    {"estimated_error_uncertainty", s.estimated_error_uncertainty},
                    {"error_bound", s.error_bound},
+                   {"error_local", s.error_local},
                    {"estimated_error_of", names_of_errors.at(error_of)},
                    {"error_sampling", s.error_sampling},
                    {"error_division", s.error_division},

@@ -57,6 +57,7 @@ TEST_CASE("statistics are the JSON object of the contract, in its order") {
   "estimated_error": null,
   "estimated_error_uncertainty": null,
   "error_bound": null,
+  "error_local": null,
   "estimated_error_of": "patches",
   "error_sampling": null,
   "error_division": null,

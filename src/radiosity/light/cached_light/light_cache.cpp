@@ -2,6 +2,7 @@
 
 #include "parallel/workers.h"
 #include "radiosity/engine/sampling/sobol.h"
+#include "radiosity/light/cached_light/local_error.h"
 #include "radiosity/light/cached_light/walks.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -21,6 +22,9 @@ constexpr std::size_t first_walks = 4096;
 
 /// The most parts of a target that take walks in a round: with fewer, the error is known sooner.
 constexpr std::size_t parts_of_round = 96;
+
+/// The number of places of a target, each of several parts, whose errors are told apart.
+constexpr std::size_t places_of_target = 32;
 
 /// The most of them where the error itself is asked for: it is known no better than parts differ.
 constexpr std::size_t max_parts_to_know = 4096;
@@ -73,19 +77,46 @@ struct LightCache::Round {
     [[nodiscard]] ReadError error(std::span<const TargetPart> target, double n) const;
 };
 
+/// What the walks of some neighbouring parts find.
+struct Place {
+    double product = 0; ///< of both groups
+    double noise = 0;   ///< variance of `product` where nothing is missing
+    double light = 0;   ///< squared
+};
+
+/// Returns what 95 of 100 places are within. Where walks do not tell an error from their noise, a
+/// place counts with the error of all.
+double local_error(std::span<const Place> places, double mean_square) {
+    constexpr double resolved = 2; // sigmas
+    LocalErrors errors;
+    for (const Place& place : places)
+        errors.add(place.product > resolved * std::sqrt(place.noise) ? place.product
+                                                                     : mean_square * place.light,
+                   place.light);
+    return errors.within();
+}
+
 /// Adds the products of both groups over the parts. Their spread is by the noise of the groups, or
 /// as parts differ, whichever is more.
 ReadError LightCache::Round::error(std::span<const TargetPart> target, double n) const {
     double products = 0, squares = 0, light = 0, by_noise = 0, weight = 0;
+    const std::size_t of_place = (target.size() + places_of_target - 1) / places_of_target;
+    std::vector<Place> places((target.size() + of_place - 1) / of_place);
     for (std::size_t k = 0; k < target.size(); ++k) {
         const auto& [a, b] = groups[k];
         const double w = target[k].weight;
         const double product = w * glm::dot(a.residual, b.residual) / (n * n);
         products += product;
         squares += product * product;
-        light += w * glm::dot(a.light + a.residual, b.light + b.residual) / (n * n);
+        const double square_light =
+            w * glm::dot(a.light + a.residual, b.light + b.residual) / (n * n);
+        light += square_light;
         const double va = variance_of_mean(a.residual, a.squares, n),
                      vb = variance_of_mean(b.residual, b.squares, n);
+        Place& place = places[k / of_place];
+        place.product += product;
+        place.noise += w * w * va * vb;
+        place.light += square_light;
         by_noise += w * w * va * vb + std::max(product, 0.0) * w * (va + vb);
         weight += w;
     }
@@ -100,6 +131,7 @@ ReadError LightCache::Round::error(std::span<const TargetPart> target, double n)
     return {.error = std::sqrt(square),
             .bound = bound,
             .uncertainty = (bound - std::sqrt(square)) / sigmas_of_bound,
+            .local = local_error(places, square),
             .level = std::sqrt(light / (3 * weight))};
 }
 

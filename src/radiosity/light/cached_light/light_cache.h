@@ -50,6 +50,8 @@ struct ReadError {
     double bound = std::numeric_limits<double>::quiet_NaN();
     /// One sigma of `error`.
     double uncertainty = std::numeric_limits<double>::quiet_NaN();
+    /// What 95 of 100 places of the target are within, relative to the light there [-].
+    double local = std::numeric_limits<double>::quiet_NaN();
     double level = 0; ///< RMS of the light of a channel over the target [W/m2]
     std::uint64_t walks = 0, rays = 0;
 };

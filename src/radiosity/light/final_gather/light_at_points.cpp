@@ -1,6 +1,7 @@
 #include "radiosity/light/final_gather/light_at_points.h"
 
 #include "parallel/workers.h"
+#include "radiosity/light/cached_light/local_error.h"
 #include "radiosity/light/final_gather/final_gather.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -163,15 +164,19 @@ LightAtPoints light_at(std::span<const Sensor> sensors, const Mesh& mesh, const 
     all.rays = gather.rays();
     all.lights.reserve(found.size());
     double sum = 0, squares = 0;
+    LocalErrors places;
     for (const Gathered& point : found) {
         const Vec3 read(options.read_error);
         all.lights.push_back({point.irradiance, glm::sqrt(point.variance + read * read)});
         const double variance = point.variance.x + point.variance.y + point.variance.z;
+        places.add(variance, glm::dot(point.irradiance, point.irradiance));
         sum += variance;
         squares += variance * variance;
     }
     // The squared error is a sum over so many points as have about the same noise. It scatters
     // itself, and so does the variance that a few gathers give.
+    constexpr double sigmas_of_most = 1.96; // 95 of 100 normal errors are smaller
+    all.noise_local = sigmas_of_most * places.within();
     constexpr double freedom = gathers - 1;
     if (sum > 0)
         all.noise_uncertainty =

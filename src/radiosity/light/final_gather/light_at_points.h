@@ -64,6 +64,7 @@ struct LightAtPoints {
     PointsEnd end = PointsEnd::right;
     double noise = 0;             ///< of rays, as PointLightOptions::noise [-]
     double noise_uncertainty = 0; ///< one sigma of it
+    double noise_local = 0;       ///< what 95 of 100 points are within [-]
     std::uint64_t rays = 0;
 };
 
