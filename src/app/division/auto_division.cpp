@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -28,9 +29,9 @@ constexpr double safe = .9, min_step = .5, max_step = .9;
 /// The number of times that the division goes on where the whole error is still too large.
 constexpr unsigned max_attempts = 8;
 
-/// Rays to find out the error of the division where patches were divided by rays. They are at most
-/// one in so many of all before. But so many are always worth it.
-constexpr std::uint64_t share_of_divided = 5, min_rays_of_error = 400'000;
+/// Rays to find out the error of the division: at most as many as all before, but so many are
+/// always worth it.
+constexpr std::uint64_t min_rays_of_error = 1'600'000, rough_rays_of_error = 400'000;
 
 std::string round_text(const DivisionRound& round) {
     return "division: " + counted(round.patches, "patch", "patches") + ", within them the light " +
@@ -60,12 +61,7 @@ class AutoDivision {
     /// Returns whether the whole error, as far as it is known, is as asked for. If it is not, less
     /// is left to what has the larger part.
     [[nodiscard]] bool is_enough(double sampling);
-    void measure_again(DivisionErrorOptions options);
-    [[nodiscard]] bool is_confirmed(std::uint64_t max_rays, double sampling,
-                                    std::span<const double> square);
-    [[nodiscard]] std::uint64_t rays_of_error(std::uint64_t before) const {
-        return std::max(before / share_of_divided, min_rays_of_error);
-    }
+    [[nodiscard]] bool is_confirmed(double sampling, std::span<const double> square);
     [[nodiscard]] bool is_over() const {
         return input_.monitor.interrupted || divided_.rough.steps == 0;
     }
@@ -82,7 +78,8 @@ class AutoDivision {
     bool is_own_;
     std::uint64_t gathers_ = 0;
     double seconds_of_errors_ = 0;
-    bool divides_ = true; ///< in the next attempt
+    bool divides_ = true;    ///< in the next attempt
+    unsigned divisions_ = 0; ///< attempts that divided
     Divided divided_;
 };
 
@@ -138,23 +135,22 @@ bool AutoDivision::is_enough(double sampling) {
     return false;
 }
 
-/// Confirms an error, as the first of several errors to be small enough errs low.
-bool AutoDivision::is_confirmed(std::uint64_t max_rays, double sampling,
-                                std::span<const double> square) {
-    const DivisionErrorOptions options{
-        .max_rays = max_rays, .negligible = sampling / 2, .square = square};
-    measure(options);
+/// Measures the error of patches that were divided just now; others keep theirs. The first of
+/// several errors to be small enough errs low, so it is confirmed at other points.
+bool AutoDivision::is_confirmed(double sampling, std::span<const double> square) {
+    const std::uint64_t before = divided_.rough.rays_energy + statistics_.rays_divide;
+    const DivisionErrorOptions options{.max_rays = std::max(before, min_rays_of_error),
+                                       .negligible = sampling / 2,
+                                       .expected = share_of_division * whole_,
+                                       .square = square};
+    const bool is_new = std::exchange(divides_, false);
+    if (is_new)
+        measure(options);
     if (is_over() || !is_enough(sampling))
         return false;
-    measure_again(options);
+    if (is_new && divisions_ > 1)
+        measure(options);
     return !is_over() && is_enough(sampling);
-}
-
-/// Measures at other points, and with more rays, as it is reported.
-void AutoDivision::measure_again(DivisionErrorOptions options) {
-    constexpr unsigned more_rays = 4;
-    options.max_rays *= more_rays;
-    measure(options);
 }
 
 void AutoDivision::divide_once(Division& division) {
@@ -178,8 +174,10 @@ void AutoDivision::divide_until_enough() {
             max_rays / 2 - std::min(spent() + divided_.rough.rays_energy, max_rays / 2);
     Division division(mesh_, input_.tracer, options_, input_.monitor);
     for (unsigned attempt = 0; attempt < max_attempts; ++attempt) {
-        if (divides_)
+        if (divides_) {
             divide_once(division);
+            ++divisions_;
+        }
         if (is_over())
             break;
         StopRule stop;
@@ -189,10 +187,8 @@ void AutoDivision::divide_until_enough() {
             break;
         statistics_.rays_divide += division.add_slopes(divided_.rough, options_.error);
         const double sampling = estimated_error(mesh_, divided_.rough);
-        const std::uint64_t rays = divided_.rough.rays_energy + statistics_.rays_divide;
         const bool is_aimed_at = sampling <= *divided_.sampling; // else by rays or steps
-        const bool done =
-            is_confirmed(rays_of_error(rays), sampling, division.squares()) || !is_aimed_at;
+        const bool done = is_confirmed(sampling, division.squares()) || !is_aimed_at;
         if (is_over() || done || divided_.rough.rays_energy + spent() > max_rays)
             break;
         division.doubt();
@@ -206,7 +202,7 @@ Divided AutoDivision::divide() {
     divided_.sampling = share_of_sampling * whole_;
     run_to(*rough.error, rough);
     if (!is_over()) {
-        measure({.max_rays = rays_of_error(0), .negligible = share_of_division * whole_});
+        measure({.max_rays = rough_rays_of_error, .negligible = share_of_division * whole_});
         divided_.linear = !is_over() && divided_.error->error > share_of_division * whole_;
     }
     if (divided_.linear)

@@ -93,7 +93,9 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
     LightCache cache(mesh, tracer, solution);
     SquaredError all;
     std::uint64_t learned = 0;
-    double error_of_read = std::max(first_error_of_read, options.negligible);
+    double error_of_read =
+        std::max(options.expected > 0 ? share_of_read * options.expected : first_error_of_read,
+                 options.negligible);
     for (std::uint64_t attempt = 0;; ++attempt) {
         const ReadError read = cache.learn(parts,
                                            {.seed = hash_words({options.seed, 2, attempt}),

@@ -46,6 +46,9 @@ struct DivisionErrorOptions {
     /// traced; but there are always at least five hundred points.
     std::uint64_t max_rays = 1'000'000;
     double negligible = 0; ///< relative error [-]
+    /// About what the error may be [-], so that the light which gathers read is learned as well as
+    /// that needs from the beginning; 0: unknown.
+    double expected = 0;
     /// The squared errors by patch [local area x (W/m2)^2], as far as they are known, or empty.
     /// Where they are large and count, more points are drawn.
     std::span<const double> square = {};

@@ -49,7 +49,7 @@ constexpr double well_known = .15;
 
 /// The numbers of points of a round: very few patches that were divided hold most of the error,
 /// where nothing was seen of it. Where gathers are longer, there are fewer by their length.
-constexpr std::size_t min_points = 64, points_of_divided = 640;
+constexpr std::size_t min_points = 64, points_of_divided = 320;
 
 /// The number of gathers at a point.
 constexpr std::size_t gathers_at_point = 2;
