@@ -16,6 +16,8 @@ namespace hemilux {
 
 namespace {
 
+constexpr const char* first_group = "Often used";
+
 std::vector<std::string> names_of(const std::vector<const CLI::App*>& subcommands) {
     std::vector<std::string> names;
     for (const CLI::App* const subcommand : subcommands)
@@ -112,6 +114,8 @@ CommandText described(const CLI::App& command) {
                 of_option.excludes.push_back(name);
         text.options.push_back(std::move(of_option));
     }
+    std::ranges::stable_partition(
+        text.options, [](const OptionText& option) { return option.group == first_group; });
     return text;
 }
 
@@ -253,6 +257,11 @@ Option Command::add_answer(const std::string& name, const std::string& type,
 Option Command::add_help(const std::string& name, const std::string& help) const {
     app_->set_help_flag(); // takes away the one that stands first
     return added(app_->set_help_flag(name, help));
+}
+
+void Command::call_often_used(std::span<const char* const> options) const {
+    for (const char* const option : options)
+        app_->get_option(option)->group(first_group);
 }
 
 void Command::end_help_with(const std::string& text) const { app_->footer(text); }

@@ -81,6 +81,9 @@ class Command {
                       std::function<std::string(const std::string&)> answer) const;
     /// Adds --help, which stands where this is called, not first.
     Option add_help(const std::string& name, const std::string& help) const;
+    /// Puts these options under a heading of their own, which is the first one of --help where one
+    /// of them was added first.
+    void call_often_used(std::span<const char* const> options) const;
     /// Sets the text that --help ends with.
     void end_help_with(const std::string& text) const;
     void after_parsing(std::function<void()> action) const;

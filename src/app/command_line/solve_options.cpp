@@ -9,6 +9,7 @@
 #include "app/settings/names.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <span>
@@ -84,7 +85,7 @@ void add_whole_error_option(Command command, SolveSettings& settings) {
                      "half as many rays again");
 }
 
-void add_output_options(Command command, SolveSettings& settings) {
+void add_output_option(Command command, SolveSettings& settings) {
     add_parsed(
         command, "-o,--output", "FILE",
         "picture .png .hdr .exr, mesh .glb .ply, patches .csv .vtu, statistics .json; repeatable",
@@ -92,6 +93,9 @@ void add_output_options(Command command, SolveSettings& settings) {
         [](const std::string& path) { return parse_output(path); },
         [&settings](const Output& value) { settings.outputs.push_back(value); })
         .repeatable();
+}
+
+void add_output_options(Command command, SolveSettings& settings) {
     command.add_text("--stats", "FILE", settings.statistics, "statistics of the run as JSON");
     command.add_text("--steps-log", "FILE", settings.steps_log, "a CSV row per step");
     command.add_flag("--every-step", settings.every_step,
@@ -235,6 +239,7 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     const Command command = program.add_command("solve", "solve a scene, write the results");
     const Command scene = command.under(scene_group), method = command.under(method_group),
                   outputs = command.under(output_group);
+    add_output_option(outputs, settings);
     const Option max_edge = add_scene_options(command, settings.scene);
     add_divide_option(scene, max_edge, settings);
     add_memory_option(scene, settings.scene);
@@ -256,6 +261,9 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_checkpoint_options(command.under("Checkpoints"), settings.checkpoint);
     add_comparison_options(command.under(comparison_group), settings);
     add_verbosity_options(command, settings.verbosity);
+    constexpr auto often_used = std::to_array({"--output", "--error", "--time", "--camera",
+                                               "--size", "--points", "--divide", "--threads"});
+    command.call_often_used(often_used);
     command.end_help_with(methods_text() + solve_examples + exit_codes);
     return command;
 }

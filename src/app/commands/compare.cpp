@@ -16,6 +16,7 @@
 #include "app/terminal/log.h"
 #include "app/terminal/print.h"
 #include "app/terminal/progress.h"
+#include "app/terminal/stage.h"
 #include "app/terminal/summary.h"
 #include "app/terminal/unused_options.h"
 #include "app/terminal/wrap.h"
@@ -56,9 +57,8 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
     const std::unique_ptr<Solver> solver = method.make(input);
     run(*solver, input, stop, [&](const StepRecord& record, const Solution&) {
         progress.step_done(record);
-        if (settings.verbosity == Verbosity::verbose)
-            progress.log("reference, " +
-                         step_text({std::string(method.name), 0, record, std::nullopt}));
+        log_line(settings.verbosity, Verbosity::verbose,
+                 "reference, " + step_text({std::string(method.name), 0, record, std::nullopt}));
     });
     const Solution& solution = solver->solution();
     if (solution.steps == 0)
@@ -76,8 +76,7 @@ std::vector<MethodRuns> run_with_progress(const Comparison& comparison,
         share_done = share;
         const std::string topic = row.method + formatted(", run %u", row.run + 1);
         progress.set_topic(topic);
-        if (comparison.settings.verbosity == Verbosity::verbose)
-            progress.log(topic + ", " + step_text(row));
+        log_line(comparison.settings.verbosity, Verbosity::verbose, topic + ", " + step_text(row));
     });
 }
 
@@ -89,6 +88,7 @@ std::optional<KnownLight> find_light(const CompareSettings& settings, const Mesh
     constexpr std::size_t points = 1 << 15;
     if (!settings.total)
         return std::nullopt;
+    const Stage stage("gathering at points", settings.verbosity);
     return std::optional<KnownLight>(std::in_place, mesh, tracer, reference.radiosity, points,
                                      hash_words({settings.options.seed, 0x6c69676874u}),
                                      Workers(settings.options.threads), interrupted);
@@ -134,6 +134,7 @@ int finish(const Comparison& comparison, std::vector<MethodRuns> results) {
         const auto summaries = summarise(results, comparison.settings.options.literal);
         const double own = own_error(comparison.mesh, comparison.reference);
         const std::string warning = reference_warning(own, summaries);
+        const Stage stage("writing", verbosity);
         report =
             write_comparison(comparison, results, summaries, page_warnings(comparison, warning));
         log_line(verbosity, Verbosity::normal, "the reference's own error: " + percent(own));

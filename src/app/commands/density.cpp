@@ -13,6 +13,7 @@
 #include "app/settings/method_options.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
+#include "app/terminal/stage.h"
 #include "app/terminal/unused_options.h"
 #include "bvh/wide/wide_bvh.h"
 #include "io/drawings/density_picture.h"
@@ -222,6 +223,7 @@ int density(DensitySettings settings) {
     check_patch(settings, mesh);
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted.own().wished);
+    std::optional<Stage> stage(std::in_place, "dividing hemispheres", settings.verbosity);
     const auto hemispheres = divide_hemispheres(settings, mesh, bvh, monitor);
     if (monitor.interrupted) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
@@ -233,6 +235,8 @@ int density(DensitySettings settings) {
     std::optional<std::uint32_t> patch;
     if (std::ranges::any_of(settings.outputs, is_svg))
         patch = patch_to_draw(made, densities);
+    stage.reset();
+    stage.emplace("writing", settings.verbosity);
     WriteReport report;
     for (const std::string& path : settings.outputs)
         report.attempt(path, [&] {

@@ -10,6 +10,7 @@
 #include "app/settings/method_options.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
+#include "app/terminal/stage.h"
 #include "app/terminal/unused_options.h"
 #include "bvh/wide/wide_bvh.h"
 #include "io/results/factor_files.h"
@@ -128,6 +129,7 @@ int formfactors(const FormFactorSettings& settings) {
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted.own().wished);
     const Workers workers(settings.options.threads);
+    std::optional<Stage> stage(std::in_place, "finding factors", settings.verbosity);
     const auto factors = by_cubes ? by_hemicubes(settings, mesh, bvh, workers, monitor)
                                   : by_rays(settings, mesh, bvh, workers, monitor);
     if (!factors) {
@@ -135,6 +137,8 @@ int formfactors(const FormFactorSettings& settings) {
         return exit_code_of_signal();
     }
     log_quality(settings.verbosity, factors->quality);
+    stage.reset();
+    stage.emplace("writing", settings.verbosity);
     WriteReport report;
     for (const std::string& path : settings.outputs)
         report.attempt(path, [&] {

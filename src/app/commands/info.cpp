@@ -9,6 +9,7 @@
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/print.h"
+#include "app/terminal/stage.h"
 #include "app/terminal/wrap.h"
 #include "io/results/scene_info_json.h"
 #include "radiosity/engine/needs/find_needs.h"
@@ -49,6 +50,7 @@ MemoryNeed need_of(const Scene& scene, const SceneSettings& asked) {
 
 int info(const InfoSettings& settings) {
     const SceneSettings& asked = settings.scene;
+    std::optional<Stage> stage(std::in_place, "looking at the scene", settings.verbosity);
     check_memory_to_read(asked.path, asked.memory);
     const ReadResult read = load_scene(asked, {});
     check_memory(need_of(read.scene, asked), asked.memory, asked.path,
@@ -74,6 +76,7 @@ int info(const InfoSettings& settings) {
         if (report.info.bad_reflectances.empty())
             report.error_division = error_within_patches(mesh, *made.tracer);
     }
+    stage.reset();
     print(settings.json
               ? to_json(report)
               : message_for(STDOUT_FILENO, describe(report, read.scene, asked), info_value_column));

@@ -27,6 +27,7 @@
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/progress.h"
+#include "app/terminal/stage.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
 #include "app/terminal/unused_options.h"
@@ -204,6 +205,7 @@ std::unique_ptr<Solver> begin(Problem& problem) {
 
 /// Divides the patches where --divide auto asks for it.
 Divided divide(Problem& problem, Statistics& statistics) {
+    const Stage stage("dividing patches", problem.settings().verbosity);
     SolverInput input = problem.input();
     const auto mesh_changed = [&] {
         if (!problem.settings().options.keep_all)
@@ -266,8 +268,7 @@ Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference
         if (reference)
             done.rows.back().error = reference->error(mesh, solution.radiosity);
         step_pictures.write(solution.radiosity, solution.steps);
-        if (settings.verbosity == Verbosity::verbose)
-            progress.log(step_text(done.rows.back()));
+        log_line(settings.verbosity, Verbosity::verbose, step_text(done.rows.back()));
     };
     const auto after_step = [&](const StepRecord& record, const Solution& solution) {
         add_row(record);
@@ -302,6 +303,7 @@ Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference
 void add_errors(Statistics& statistics, const Problem& problem, const Divided& divided,
                 const Solution& solution, double seconds_solver) {
     const SolveSettings& settings = problem.settings();
+    const Stage stage("finding the error", settings.verbosity);
     fill(statistics, settings, problem.mesh(), solution, seconds_solver);
     // Without an estimate of sampling, the error of the division would be taken for the whole.
     if (!settings.work().estimates_error || !shows_statistics(settings))
@@ -361,6 +363,7 @@ int write(const Problem& problem, const Run& done, const Solution& solution, Sta
     const OnThisRank works_alone(problem.monitor.interrupted);
     const bool interrupted = !done.completed && !done.fault;
     settings.view.camera = done.camera;
+    std::optional<Stage> stage(std::in_place, "writing", settings.verbosity);
     std::span<const LightOfStep> lights = done.lights;
     if (!lights.empty() && lights.back().step == solution.steps) // which is shown as the last one
         lights = lights.first(lights.size() - 1);
@@ -370,6 +373,7 @@ int write(const Problem& problem, const Run& done, const Solution& solution, Sta
                              loaded.file_lightmap, loaded.scene.warnings, problem.monitor},
                             done.written, reference, done.notes, interrupted, started,
                             loaded.resumed ? loaded.resumed->seconds : 0);
+    stage.reset();
     if (interrupted && !settings.ranks->are_several())
         end_at_once(code);
     if (!done.fault || code != exit_done)
@@ -403,6 +407,7 @@ int solve(Problem& problem, const Stopwatch& started) {
     if (gathers_target(problem.settings()) && solution->steps > 0 && done.completed &&
         problem.settings().ranks->is_first()) {
         const OnThisRank works_alone(problem.monitor.interrupted);
+        const Stage stage("gathering the light of the target", problem.settings().verbosity);
         of_target = *solution;
         gather_target(problem.settings(), lit_scene(problem, *solution), *of_target,
                       problem.monitor, statistics);

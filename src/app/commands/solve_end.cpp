@@ -142,6 +142,7 @@ int finish(const SolveSettings& settings, Results results, const WriteReport& of
                  z_scores_text(z_scores(results.mesh, solution, reference->radiosity,
                                         reference->standard_error)));
     }
+    log_line(settings.verbosity, Verbosity::normal, time_text(results.statistics));
     report.log(settings.verbosity);
     if (interrupted || ends_early)
         log_line(settings.verbosity, Verbosity::quiet,

@@ -11,6 +11,7 @@
 #include "app/settings/factor_aim.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
+#include "app/terminal/stage.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
 #include "bvh/wide/wide_bvh.h"
@@ -47,6 +48,7 @@ MemoryNeed need_of(const Scene& scene, const ViewFactorSettings& settings) {
 }
 
 LoadedSurfaces load_surfaces(const ViewFactorSettings& settings, const RunFiles& files) {
+    const Stage stage("reading", settings.verbosity);
     check_memory_to_read(settings.scene.path, settings.scene.memory);
     ReadResult read = load_scene(settings.scene, files);
     log_warnings(settings.verbosity, read.warnings);
@@ -122,6 +124,7 @@ void check_sky(const ViewFactorSettings& settings) {
 /// was thought.
 ViewFactors compute(const ViewFactorSettings& settings, const LoadedSurfaces& loaded,
                     const FactorSurfaces& surfaces, const WideBvh& tree, Monitor& monitor) {
+    const Stage stage("finding factors", settings.verbosity);
     const Workers workers(settings.options.threads);
     constexpr double first_guess = .01, smallest = 1e-4;
     const auto with_largest = [&](double largest) {
@@ -206,6 +209,7 @@ int viewfactors(const ViewFactorSettings& settings) {
         table.columns.push_back(Open::sky);
     if (settings.ground)
         table.columns.push_back(Open::ground);
+    const Stage stage("writing", settings.verbosity);
     WriteReport report;
     for (const std::string& path : settings.outputs)
         report.attempt(path, [&] { write(path, settings, loaded.mesh, surfaces, table); });

@@ -5,6 +5,7 @@
 #include "app/gathering/learn_options.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
+#include "app/terminal/stage.h"
 #include "app/terminal/stopwatch.h"
 #include "geometry/elementary.h"
 #include "io/files/error.h"
@@ -54,11 +55,13 @@ struct Errors {
     ReadError read;               ///< of the light that gathers read
     double noise = 0;             ///< of their own, relative [-]
     double noise_uncertainty = 0; ///< one sigma
+    double noise_local = 0;       ///< what 95 of 100 places are within, relative to their light [-]
 
     [[nodiscard]] double whole() const { return elementary::hypot(read.error, noise); }
     [[nodiscard]] double bound() const {
         return elementary::hypot(read.bound, noise + noise_uncertainty);
     }
+    [[nodiscard]] double local() const { return elementary::hypot(read.local, noise_local); }
     /// Returns whether the error may be larger or smaller than this one.
     [[nodiscard]] bool is_in_doubt(double limit) const {
         return bound() > limit && whole() - 2 * uncertainty() <= limit;
@@ -124,6 +127,7 @@ ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t see
     LearnOptions options =
         learn_options(settings_, share_of_read * error_, seed, solution_, statistics_);
     options.seconds = seconds;
+    const Stage stage("learning the light", settings_.verbosity);
     const Stopwatch watch;
     const ReadError found = light_.cache->learn(target, options, workers_, monitor_.interrupted);
     statistics_.rays_learn += found.rays;
@@ -146,19 +150,24 @@ void Gathering::gather_until_right(const std::string& what, const ReadError& rea
     std::uint64_t judged = 1; // by so many times the usual pixels
     const auto judge_by = [&](std::uint64_t more) {
         judged = more;
+        const Stage stage("judging the " + what, settings_.verbosity);
         const Stopwatch watch;
         const PictureError own = judge(usual_pixels * more, hash_words({seed, more - 1}));
         statistics_.rays_learn += own.rays;
         statistics_.seconds_learn += watch.seconds();
         errors.noise = own.error;
         errors.noise_uncertainty = own.uncertainty;
+        errors.noise_local = own.local;
     };
     double before = std::numeric_limits<double>::infinity();
     bool alone = false;
     for (unsigned rays = settings_.gather.value_or(rays_for(error_));; rays *= 2) {
-        const Stopwatch watch;
-        gather(rays, alone);
-        statistics_.seconds_gather += watch.seconds();
+        {
+            const Stage stage("gathering the " + what, settings_.verbosity);
+            const Stopwatch watch;
+            gather(rays, alone);
+            statistics_.seconds_gather += watch.seconds();
+        }
         judge_by(1);
         // Few pixels may happen to hold much: more of them cost less than to gather again.
         for (std::uint64_t more = 4; more <= 16 && errors.is_in_doubt(error_); more *= 4)
@@ -234,6 +243,7 @@ void Gathering::log_end_of_points(std::size_t points) const {
 }
 
 void Gathering::find_points(std::span<const NamedPoint> points) {
+    const Stage stage("gathering at points", settings_.verbosity);
     if (!find_sensors(points))
         return;
     Errors errors{learn(parts_of(light_.sensors), seed_of(3), limits_.seconds)};
@@ -259,6 +269,7 @@ void Gathering::find_points(std::span<const NamedPoint> points) {
     log_end_of_points(points.size());
     errors.noise = light_.points.noise;
     errors.noise_uncertainty = light_.points.noise_uncertainty;
+    errors.noise_local = light_.points.noise_local;
     statistics_.rays_gather += light_.points.rays;
     statistics_.seconds_learn += watch.seconds();
     add(errors);
@@ -330,6 +341,7 @@ GatheredLight Gathering::finish() {
         statistics_.estimated_error = errors_->whole();
         statistics_.error_bound = errors_->bound();
         statistics_.estimated_error_uncertainty = errors_->uncertainty();
+        statistics_.error_local = errors_->local();
         statistics_.estimated_error_of = ErrorOf::gathered;
     }
     return std::move(light_);

@@ -8,6 +8,7 @@
 #include "app/settings/extension.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
+#include "app/terminal/stage.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
 #include "geometry/polygon.h"
@@ -161,6 +162,7 @@ ViewSettings view_of(const ViewSettings& asked, const FileView& file, Verbosity 
 /// Prepares the tracer and the needs, each by a thread of its own, where there are two.
 Prepared prepare(LoadedMesh& loaded, const SolveOptions& options, Verbosity verbosity) {
     const Stopwatch preparing;
+    const Stage stage("building the tree", verbosity);
     const Mesh& mesh = loaded.mesh;
     Prepared prepared{.needs = {}, .made = std::move(loaded.made), .seconds = 0};
     Workers(options.threads).for_chunks(2, 1, [&](std::size_t part, std::size_t) {
@@ -202,6 +204,7 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                      const std::function<double(double patches)>& bytes_of_results,
                      const Method* before) {
     const Stopwatch reading;
+    const Stage stage("reading", verbosity);
     check_memory_to_read(settings.path, settings.memory);
     ReadResult read = load_scene(settings, files);
     log_warnings(verbosity, read.warnings);

@@ -2,6 +2,7 @@
 
 #include "app/loading/sides.h"
 #include "app/terminal/log.h"
+#include "app/terminal/stage.h"
 #include "app/terminal/summary.h"
 #include "io/files/error.h"
 
@@ -10,6 +11,7 @@ namespace hemilux {
 LoadedGeometry load_geometry(const SceneSettings& settings, const RunFiles& files,
                              const SolveOptions& options, const GeometryUse& use,
                              Verbosity verbosity) {
+    const Stage stage("reading", verbosity);
     check_memory_to_read(settings.path, settings.memory);
     ReadResult read = load_scene(settings, files);
     log_warnings(verbosity, read.warnings);

@@ -72,18 +72,20 @@ class Picture {
     [[nodiscard]] Image render(Verbosity verbosity) {
         const LitScene scene = results_.lit();
         camera_ = shown_camera_of(view_, scene, verbosity);
-        Image image = gathers_ ? gathered() : interpolated(scene);
+        if (gathers_ && !results_.gathered.picture)
+            log_line(verbosity, Verbosity::quiet,
+                     "interrupted; pictures show the light of the patches");
+        Image image = results_.gathered.picture && gathers_ ? *results_.gathered.picture
+                                                            : interpolated(scene);
         choose_exposure(view_, image, scene, camera_);
         return image;
     }
 
-    [[nodiscard]] Image gathered() const {
-        if (!results_.gathered.picture)
-            throw Interrupted();
-        return *results_.gathered.picture;
-    }
+    /// After a signal there is little time: one place stands for a pixel.
     [[nodiscard]] Image interpolated(const LitScene& scene) {
         RenderOptions options = picture_options(view_.size, scene.threads, time_);
+        if (results_.monitor.interrupted)
+            options.samples = 1;
         options.classes = &classes_.get();
         options.slope = results_.solution.slope;
         return render_view(scene, camera_, options);

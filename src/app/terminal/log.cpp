@@ -1,6 +1,7 @@
 #include "app/terminal/log.h"
 
 #include "app/settings/text.h"
+#include "app/terminal/live_line.h"
 #include "app/terminal/wrap.h"
 #include "io/files/atomic_file.h"
 #include "io/files/printable.h"
@@ -19,7 +20,8 @@ bool can_log() {
 }
 
 void write_message(const std::string& text) {
-    std::fprintf(stderr, "%s\n", message_for(STDERR_FILENO, text).c_str());
+    LiveLine::write_above(
+        [&] { std::fprintf(stderr, "%s\n", message_for(STDERR_FILENO, text).c_str()); });
 }
 
 void log_line(Verbosity wanted, Verbosity least, const std::string& line) {
@@ -29,7 +31,10 @@ void log_line(Verbosity wanted, Verbosity least, const std::string& line) {
 
 void log_path(Verbosity wanted, Verbosity least, const std::string& verb, const std::string& path) {
     if (wanted >= least && can_log())
-        std::fprintf(stderr, "%s %s\n", verb.c_str(), printable_message(single_line(path)).c_str());
+        LiveLine::write_above([&] {
+            std::fprintf(stderr, "%s %s\n", verb.c_str(),
+                         printable_message(single_line(path)).c_str());
+        });
 }
 
 void log_warnings(Verbosity wanted, const std::vector<std::string>& warnings) {

@@ -1,30 +1,18 @@
 #include "app/terminal/progress.h"
 
 #include "app/settings/text.h"
-#include "app/terminal/log.h"
-#include "app/terminal/wrap.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <string_view>
-#include <unistd.h>
 #include <utility>
 
 namespace hemilux {
 
 namespace {
 
-constexpr auto redraw_interval = std::chrono::milliseconds(150);
 constexpr std::size_t bar_cells = 24;
 
 } // namespace
-
-bool stderr_is_terminal() {
-    const char* const terminal = std::getenv("TERM");
-    return isatty(STDERR_FILENO) && terminal && std::string_view(terminal) != "dumb";
-}
 
 double share_done(const StopRule& stop, bool well_distributed, const ProgressState& state) {
     const double steps = state.steps + std::clamp(state.step_share, 0.0, 1.0);
@@ -65,12 +53,8 @@ std::string progress_line(double share, const ProgressState& state, std::size_t 
 }
 
 Progress::Progress(const Monitor& monitor, ShareDone share, bool bar)
-    : monitor_(monitor), share_(std::move(share)) {
-    if (bar)
-        thread_ = std::thread([this] { redraw_until_closed(); });
-}
-
-Progress::~Progress() { close(); }
+    : monitor_(monitor), share_(std::move(share)),
+      line_(bar, [this](std::size_t columns) { return text(columns); }) {}
 
 void Progress::step_done(const StepRecord& record) {
     const std::scoped_lock lock(mutex_);
@@ -85,49 +69,15 @@ void Progress::set_topic(const std::string& topic) {
     state_.topic = topic;
 }
 
-void Progress::log(const std::string& line) {
+std::string Progress::text(std::size_t columns) {
     const std::scoped_lock lock(mutex_);
-    erase();
-    if (can_log())
-        write_message(line);
-}
-
-void Progress::close() {
-    {
-        const std::scoped_lock lock(mutex_);
-        closed_ = true;
-    }
-    wake_.notify_all();
-    if (thread_.joinable())
-        thread_.join();
-    const std::scoped_lock lock(mutex_);
-    erase();
-}
-
-void Progress::redraw_until_closed() {
-    std::unique_lock lock(mutex_);
-    while (!wake_.wait_for(lock, redraw_interval, [this] { return closed_; }))
-        draw();
-}
-
-void Progress::draw() {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     state_.seconds = elapsed.count();
     state_.rays = monitor_.rays;
     state_.rays_of_step = state_.rays - rays_before_step_;
     state_.step_share = monitor_.step_share;
     state_.phase = monitor_.interrupted ? "stopping" : monitor_.phase.load();
-    const std::string line =
-        progress_line(share_(state_), state_, terminal_columns(STDERR_FILENO) - 1);
-    std::fprintf(stderr, "\r%s\033[K", line.c_str());
-    std::fflush(stderr);
-    drawn_ = true;
-}
-
-void Progress::erase() {
-    if (drawn_)
-        std::fputs("\r\033[K", stderr);
-    drawn_ = false;
+    return progress_line(share_(state_), state_, columns);
 }
 
 } // namespace hemilux

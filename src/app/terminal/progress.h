@@ -1,17 +1,15 @@
 #pragma once
-// The progress bar: a line on the terminal that a thread of its own redraws a few times a second
-// from the solver's monitor.
+// The progress bar: a line on the terminal, drawn from the solver's monitor.
 
+#include "app/terminal/live_line.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/run.h"
 
 #include <chrono>
-#include <condition_variable>
 #include <functional>
 #include <limits>
 #include <mutex>
 #include <string>
-#include <thread>
 
 namespace hemilux {
 
@@ -45,25 +43,17 @@ using ShareDone = std::function<double(const ProgressState&)>;
 
 class Progress {
   public:
-    /// Begins the display. Without a bar it only passes on what is logged. The monitor outlives
-    /// this.
+    /// Begins the display, where there is a bar. The monitor outlives this.
     Progress(const Monitor& monitor, ShareDone share, bool bar);
-    ~Progress();
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
 
     void step_done(const StepRecord& record);
     /// Sets what stands before the phase.
     void set_topic(const std::string& topic);
-    /// Writes a line on stderr that stays, above the bar.
-    void log(const std::string& line);
     /// Takes the bar away for good.
-    void close();
+    void close() { line_.close(); }
 
   private:
-    void redraw_until_closed();
-    void draw();
-    void erase();
+    [[nodiscard]] std::string text(std::size_t columns);
 
     const Monitor& monitor_;
     ShareDone share_;
@@ -71,12 +61,7 @@ class Progress {
     ProgressState state_;
     std::uint64_t rays_before_step_ = 0; ///< the monitor's count
     std::mutex mutex_;
-    std::condition_variable wake_;
-    bool closed_ = false, drawn_ = false;
-    std::thread thread_;
+    LiveLine line_;
 };
-
-/// Returns whether stderr is a terminal that can redraw a line.
-[[nodiscard]] bool stderr_is_terminal();
 
 } // namespace hemilux

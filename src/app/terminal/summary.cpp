@@ -3,6 +3,8 @@
 #include "app/settings/text.h"
 
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 namespace hemilux {
 
@@ -51,9 +53,12 @@ std::string errors_text(const Statistics& s) {
                      percent(s.error_division_uncertainty);
         return error + "; elsewhere it is rough: " + percent(s.estimated_error_elsewhere);
     }
+    if (s.estimated_error_of == ErrorOf::gathered && !std::isfinite(s.estimated_error))
+        return error;
     if (s.estimated_error_of == ErrorOf::gathered)
         return error + ", surely at most " + percent(s.error_bound) +
-               ", of gathered light; it reads patches of sampling error " +
+               ", of gathered light, and within " + percent(s.error_local) +
+               " of the light there in 95 of 100 places; it reads patches of sampling error " +
                percent(s.error_sampling);
     if (!std::isfinite(s.error_division))
         return error + ", of the patches' mean light; --whole-error finds what they leave out";
@@ -105,6 +110,32 @@ std::string run_text(const Statistics& s) {
     if (s.steps > 0)
         text += "\n" + errors_text(s) + "\n" + energy_text(s);
     return text;
+}
+
+std::string time_text(const Statistics& s) {
+    const std::initializer_list<std::pair<const char*, double>> parts = {
+        {"reading", s.seconds_read},
+        {"the tree", s.seconds_bvh},
+        {"dividing patches", s.seconds_divide},
+        {"densities", s.seconds_density},
+        {"solving", s.seconds_solve},
+        {"finding the error", s.seconds_division_error},
+        {"analysis", s.seconds_analysis},
+        {"learning and judging light", s.seconds_learn},
+        {"gathering", s.seconds_gather},
+        {"pictures", s.seconds_picture},
+        {"other files", s.seconds_write}};
+    constexpr double least_share = .05;
+    std::string text;
+    double rest = s.seconds_total;
+    for (const auto& [name, seconds] : parts)
+        if (seconds >= least_share * s.seconds_total) {
+            text += (text.empty() ? ": " : ", ") + std::string(name) + " " + duration(seconds);
+            rest -= seconds;
+        }
+    if (!text.empty() && rest > 0)
+        text += ", all else " + duration(rest);
+    return "whole time " + duration(s.seconds_total) + text;
 }
 
 std::string memory_text(const Statistics& s) {

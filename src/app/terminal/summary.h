@@ -19,6 +19,8 @@ namespace hemilux {
 
 /// Returns the text of the end of a run: method, rays, time, error, energy.
 [[nodiscard]] std::string run_text(const Statistics& statistics);
+/// Returns the whole time of a run, and how it was spent.
+[[nodiscard]] std::string time_text(const Statistics& statistics);
 /// Returns the bytes of the density store and of the process (-v).
 [[nodiscard]] std::string memory_text(const Statistics& statistics);
 /// Return the errors against a reference.

@@ -37,19 +37,21 @@ TEST_CASE("pictures are gathered, unless --no-gather; those of steps are not") {
     }
 }
 
-TEST_CASE("a signal ends a gathered picture", "[slow]") {
+TEST_CASE("a signal ends a gather, and pictures then show the light of the patches", "[slow]") {
     const Workplace place;
     place.write_room();
     Running run(place,
-                "solve room.obj --steps 4000000000 -v --gather 1024 --size 2000x1500 "
+                "solve room.obj --steps 4000000000 -v --gather 1024 --size 800x600 "
                 "-o a.png -o a.csv",
                 place.path("talk.txt").c_str());
     REQUIRE(wait_for(place, "talk.txt", "step 2:"));
     run.interrupt();
     CHECK(run.wait() == 130);
-    CHECK_THAT(place.read("talk.txt"), Contains("interrupted; left out a.png"));
     CHECK(place.has("a.csv"));
-    CHECK_FALSE(place.has("a.png"));
+    // A slow machine may take longer even for the light of the patches than it is given.
+    const std::string talk = place.read("talk.txt");
+    CHECK_THAT(talk, Contains("interrupted; pictures show the light of the patches"));
+    CHECK(place.has("a.png") != Contains("interrupted; left out a.png").match(talk));
 }
 
 TEST_CASE("the seconds of the stages are all of a run", "[slow]") {

@@ -1,0 +1,76 @@
+// What a terminal shows while a stage lasts, and what is said of the time at the end.
+#include "app/program.h"
+#include "app/running.h"
+#include "app/terminal/stage.h"
+#include "app/terminal/summary.h"
+#include "support/catch.h"
+
+#include <fcntl.h>
+#include <string>
+#include <thread>
+#include <unistd.h>
+
+using namespace hemilux;
+using Catch::Contains;
+using test::Running;
+using test::Workplace;
+
+TEST_CASE("a stage shows its name and how long it lasts, and fits the terminal") {
+    CHECK(stage_line("reading", 0, 200) == "[####....................] reading  0 s");
+    const std::string later = stage_line("reading", 1, 200);
+    CHECK(later == "[.......####.............] reading  1.00 s");
+    const std::string turned = stage_line("reading", 27. / 7, 200); // 13 from the left again
+    CHECK(turned.starts_with("[.............####.......] reading"));
+    CHECK(stage_line("reading", 1, 10).size() == 10);
+}
+
+TEST_CASE("the whole time is told with the stages that matter") {
+    Statistics statistics;
+    statistics.seconds_total = 10;
+    statistics.seconds_solve = .2;
+    statistics.seconds_learn = 3;
+    statistics.seconds_gather = 6;
+    CHECK(
+        time_text(statistics) ==
+        "whole time 10.0 s: learning and judging light 3.00 s, gathering 6.00 s, all else 0.80 s");
+    statistics.seconds_gather = statistics.seconds_learn = statistics.seconds_solve = .1;
+    CHECK(time_text(statistics) == "whole time 10.0 s");
+}
+
+TEST_CASE("a terminal sees each long stage of a run, and nothing of it at the end", "[slow]") {
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    REQUIRE(terminal >= 0);
+    REQUIRE(grantpt(terminal) == 0);
+    REQUIRE(unlockpt(terminal) == 0);
+    const std::string name = ptsname(terminal);
+    const int keep_open = open(name.c_str(), O_WRONLY | O_NOCTTY); // reading ends without an error
+
+    const Workplace place;
+    place.write_room();
+    Running run(place,
+                "solve room.obj --steps 1 -o a.png --gather 1024 --size 600x450 -t 1 " +
+                    test::camera_in_room,
+                name.c_str());
+    std::string seen;
+    std::thread reader([&] {
+        char buffer[256];
+        while (seen.find("the end") == std::string::npos) {
+            const ssize_t count = read(terminal, buffer, sizeof buffer);
+            if (count <= 0)
+                return;
+            seen.append(buffer, static_cast<std::size_t>(count));
+        }
+    });
+    const int code = run.wait();
+    CHECK(write(keep_open, "the end", 7) == 7);
+    reader.join();
+    close(keep_open);
+    close(terminal);
+
+    CHECK(code == 0);
+    CHECK_THAT(seen, Contains("] gathering the picture  "));
+    const std::size_t summary = seen.find("stored-transport: ");
+    REQUIRE(summary != std::string::npos);
+    CHECK(seen.find(']', summary) == std::string::npos);
+    CHECK_THAT(seen.substr(summary), Contains("whole time"));
+}
