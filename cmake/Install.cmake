@@ -21,6 +21,14 @@ if(TARGET hemilux)
   install(TARGETS hemilux EXPORT hemilux_hemilux COMPONENT library)
   install(EXPORT hemilux_hemilux NAMESPACE hemilux:: DESTINATION ${package_folder} COMPONENT library)
 endif()
+# The readers and writers that need no further package but zlib, as a component of their own.
+if(TARGET hemilux_io)
+  install(TARGETS hemilux_io EXPORT hemilux_io COMPONENT io)
+  install(EXPORT hemilux_io NAMESPACE hemilux:: DESTINATION ${package_folder} COMPONENT io)
+  install(DIRECTORY src/io DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hemilux COMPONENT io
+          FILES_MATCHING PATTERN "*.h" PATTERN gltf EXCLUDE PATTERN scene_info_json.h EXCLUDE
+          PATTERN glb.h EXCLUDE)
+endif()
 configure_package_config_file(cmake/hemiluxConfig.cmake.in ${PROJECT_BINARY_DIR}/hemiluxConfig.cmake
                               INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/hemiluxConfigVersion.cmake

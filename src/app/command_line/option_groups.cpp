@@ -79,7 +79,7 @@ void add_light_options(Command command, SceneSettings& scene) {
 } // namespace
 
 Option add_scene_options(Command command, SceneSettings& scene) {
-    command.add_text("SCENE", "FILE", scene.path, "the scene: .obj, .gltf, .glb or .stl")
+    command.add_text("SCENE", "FILE", scene.path, "the scene: .obj, .gltf, .glb, .stl or .vs3")
         .required();
     command = command.under(scene_group);
     command.add_text(
@@ -104,7 +104,7 @@ Option add_scene_options(Command command, SceneSettings& scene) {
 }
 
 void add_geometry_options(Command command, SceneSettings& scene) {
-    command.add_text("SCENE", "FILE", scene.path, "the scene: .obj, .gltf, .glb or .stl")
+    command.add_text("SCENE", "FILE", scene.path, "the scene: .obj, .gltf, .glb, .stl or .vs3")
         .required();
     scene.textures = false;
     command = command.under(scene_group);

@@ -18,6 +18,7 @@
 #include "io/scene_files/inspect.h"
 #include "io/scene_files/obj.h"
 #include "io/scene_files/stl.h"
+#include "io/scene_files/vs3.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/find_needs.h"
@@ -69,8 +70,10 @@ ReadResult read_by_extension(const SceneSettings& settings, const ReadGuard& gua
         return read_gltf(path, guard, settings.textures, settings.outside);
     if (extension == ".stl")
         return read_stl(path, guard);
-    throw InputError(path,
-                     "expected a scene of a kind that can be read: .obj, .gltf, .glb or .stl");
+    if (extension == ".vs3")
+        return read_vs3(path, guard);
+    throw InputError(
+        path, "expected a scene of a kind that can be read: .obj, .gltf, .glb, .stl or .vs3");
 }
 
 /// Throws InputError for what no method can solve.
