@@ -77,6 +77,6 @@ def threads_and_seed(threads: int, seed: int) -> tuple[int, int]:
     return natural("threads", threads, 4096), natural("seed", seed, 2**64 - 1)
 
 
-def warn(text: str) -> None:
-    """Warn the caller of the function of the package that calls this."""
-    warnings.warn(text, stacklevel=3)
+def warn(text: str, frames: int = 1) -> None:
+    """Warn the caller of the package, which is so many functions above the one that calls this."""
+    warnings.warn(text, stacklevel=2 + frames)

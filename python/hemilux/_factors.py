@@ -38,7 +38,7 @@ class ViewFactors:
         Shares that leave the scene upwards and downwards, and that meet backs of one-sided faces
         [-]. None where a loaded file does not have them.
     sky_standard_error, ground_standard_error, back_standard_error : ndarray of float64, or None
-        Their standard errors [-].
+        Their standard errors [-]; 0 where no ray of a surface tells that its rest has two parts.
     unlisted_bound : ndarray of float64, shape (n,), or None
         The sum of the factors of a row that are not listed is below this in 95 of 100 rows [-].
     audit : dict of str to float
@@ -224,7 +224,7 @@ def _error_reached(factors: ViewFactors, of: str) -> float:
                                  / np.maximum(factors._shares[k], 0.01), initial=0))
                     for k in _OPEN[:2]))
     if of == "rows":
-        return float(np.sqrt(np.max(errors.power(2).sum(axis=1), initial=0)))
+        return float(np.sqrt(np.max(np.asarray(errors.power(2).sum(axis=1)), initial=0)))
     if of == "largest":
         rows = np.flatnonzero(np.diff(matrix.indptr))
         largest = np.asarray(matrix.argmax(axis=1)).reshape(-1)[rows]
@@ -315,13 +315,13 @@ def _warn_of(factors: ViewFactors, of: str, error: float) -> None:
     audit["error"] = reached = _error_reached(factors, of)
     if reached > error:
         warn(f"the error is {reached:.2g}, where {error:g} was asked for; most of it is where little "
-             "is seen past many edges")
+             "is seen past many edges", 2)
     if of != "sky" and audit["chance_rms"] > 1.5 and audit["lacking_rms"] > 1e-8:
         warn("the rows lacked more than chance explains; an opening that no ray found, or faces that "
              f"lie through each other, may be the cause: patch {audit['worst_patch']} lacked "
-             f"{audit['lacking_worst']:.2g}")
+             f"{audit['lacking_worst']:.2g}", 2)
     turned = np.flatnonzero(factors._shares["back"] > 0.999)
     if len(turned):
         names = ", ".join(repr(factors.name[i]) for i in turned[:4])
         warn(f"{len(turned)} of the surfaces see nothing but backs of faces ({names}"
-             f"{', ...' if len(turned) > 4 else ''}); such faces are probably turned")
+             f"{', ...' if len(turned) > 4 else ''}); such faces are probably turned", 2)
