@@ -25,7 +25,7 @@ OnePatch count_of(const PythonMesh& mesh, std::uint32_t patch, const Hemisphere&
     Needs needs;
     needs.idle.assign(mesh.mesh().patches().size(), true);
     needs.idle[patch] = false;
-    const DensityMap map(mesh.mesh(), mesh.tree(1), hemisphere, threshold, Workers(1), monitor,
+    const DensityMap map(mesh.mesh(), mesh.tree(0), hemisphere, threshold, Workers(1), monitor,
                          needs);
     OnePatch result;
     if (monitor.interrupted)

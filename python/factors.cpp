@@ -45,7 +45,7 @@ ViewFactorSettings settings_of(double error, const std::string& of, const std::s
     return settings;
 }
 
-py::dict audit_of(const ViewFactors& factors) {
+py::dict audit_of(const ViewFactors& factors, double reciprocity) {
     const ClosingAudit& audit = factors.audit;
     const ExchangeWork& work = factors.work;
     py::dict result;
@@ -57,7 +57,7 @@ py::dict audit_of(const ViewFactors& factors) {
     result["largest_move"] = audit.largest_move;
     result["largest_exact_move"] = audit.largest_exact_move;
     result["set_to_zero"] = audit.set_to_zero;
-    result["reciprocity"] = worst_reciprocity(factors);
+    result["reciprocity"] = reciprocity;
     result["rays"] = work.rays;
     result["lines"] = work.lines;
     result["exact_pairs"] = work.exact_pairs;
@@ -76,7 +76,7 @@ py::array_t<double> open_of(const ViewFactors& factors, double OpenShare::*membe
     });
 }
 
-py::dict result_of(ViewFactors factors, const FactorSurfaces& surfaces) {
+py::dict result_of(ViewFactors factors, const FactorSurfaces& surfaces, double reciprocity) {
     py::dict result;
     py::list names;
     std::vector<double> areas;
@@ -88,7 +88,7 @@ py::dict result_of(ViewFactors factors, const FactorSurfaces& surfaces) {
     result["area"] = array_of(std::move(areas));
     result["open"] = open_of(factors, &OpenShare::factor);
     result["open_standard_error"] = open_of(factors, &OpenShare::standard_error);
-    result["audit"] = audit_of(factors);
+    result["audit"] = audit_of(factors, reciprocity);
     result["unlisted_bound"] = array_of(std::move(factors.unlisted_bound));
     result["indptr"] = array_as<std::int64_t>(std::move(factors.row_begin));
     result["indices"] = array_as<std::int32_t>(std::move(factors.column)); // as SciPy has them
@@ -104,12 +104,16 @@ py::dict compute(const PythonMesh& mesh, double error, const std::string& of, co
     Monitor monitor;
     FactorSurfaces surfaces;
     ViewFactors factors;
+    double reciprocity = 0;
     run_without_lock(monitor, progress, [&] {
         surfaces = factor_surfaces(mesh.mesh(), settings.by);
         factors =
             compute_factors(settings, {mesh.mesh(), mesh.tree(threads), surfaces, up}, monitor);
+        reciprocity = worst_reciprocity(factors);
     });
-    return result_of(std::move(factors), surfaces);
+    py::dict result = result_of(std::move(factors), surfaces, reciprocity);
+    result["least"] = settings.aim.least; // of above:F
+    return result;
 }
 
 /// Makes factors of the arrays of a matrix again.

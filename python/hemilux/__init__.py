@@ -10,11 +10,12 @@ seed, whatever the number of threads. Lengths are in one unit of your choice, he
 
 from ._compare import Comparison, compare
 from ._density import Density, density
-from ._factors import ViewFactors, view_factors
+from ._factors import ViewFactors
 from ._hemilux import __version__
 from ._mesh import Mesh, read
 from ._rays import Hits, Rays, rays
 from ._solve import Solution, methods, solve
+from ._view_factors import view_factors
 
 __all__ = [
     "Comparison",

@@ -95,7 +95,10 @@ class Mesh:
         materials, material = np.unique(colours, axis=0, return_inverse=True)
         material = np.broadcast_to(material.reshape(-1).astype(np.int64), (m,)) \
             if len(colours) == 1 else material.reshape(-1).astype(np.int64)
-        sides = np.broadcast_to(np.asarray(two_sided, dtype=bool), (m,))
+        sides = np.asarray(two_sided)
+        if sides.dtype != bool or sides.shape not in ((), (m,)):
+            raise ValueError(f"two_sided: expected True, False, or {m} of them")
+        sides = np.broadcast_to(sides, (m,))
         self._core = _hemilux.mesh_of(corners, polygons, names, index, materials[:, :3],
                                       materials[:, 3:], material, sides, _edge(max_edge), axis(up))
         for text in self._core.warnings:

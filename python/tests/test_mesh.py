@@ -56,6 +56,8 @@ def test_two_sided_faces_have_patches_on_their_backs():
     (dict(reflectance=[[.1, .2]]), "reflectance: expected a number, a colour"),
     (dict(emission=-1), "emission: expected numbers of at least 0"),
     (dict(emission=np.inf), "emission.*: expected finite numbers"),
+    (dict(two_sided=[True, False]), "two_sided: expected True, False, or 1 of them"),
+    (dict(two_sided=1), "two_sided: expected True"),
     (dict(max_edge=-1), "max_edge: expected a length"),
     (dict(max_edge=1e-9), "max-edge"),
     (dict(up="w"), "up: expected 'x', 'y' or 'z'"),

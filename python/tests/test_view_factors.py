@@ -88,7 +88,7 @@ def test_sky_and_ground_are_columns_where_that_is_asked_for():
 
 
 @pytest.mark.parametrize("of, asked", [("rows", 0.01), ("largest", 0.05), ("sky", 0.05),
-                                       ("pair:20,45", 0.01), ("above:0.01", 0.01)])
+                                       ("pair:20,45", 0.01), ("above:1%", 0.01)])
 def test_errors_are_those_of_what_was_asked(of, asked):
     found = hemilux.view_factors(boxes(3), asked, of=of)
     assert 0 < found.audit["error"] <= asked
