@@ -63,7 +63,3 @@ if(HEMILUX_PYTHON)
     set(HEMILUX_PYTHON OFF)
   endif()
 endif()
-# A module is loaded anywhere, and so is the code of the libraries in it.
-if(HEMILUX_PYTHON)
-  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-endif()
