@@ -19,6 +19,8 @@ usage() {
 preset=dev
 slow=yes
 packages="catch2 libopenmpi-dev openmpi-bin"
+# The Python module is tested where these are; they are not asked for where apt-get does not install them.
+python_packages="python3-dev pybind11-dev python3-numpy python3-scipy python3-pytest"
 [ $# -le 1 ] || { usage >&2; exit 1; }
 case ${1-} in
 '') ;;
@@ -32,11 +34,21 @@ case ${1-} in
 *) usage >&2; exit 1 ;;
 esac
 
+# The module is tested by a Python that has what the tests import: the first of these, or none.
+python_for_tests() {
+    for python in python3 /usr/bin/python3; do
+        if "$python" -c 'import numpy, scipy.sparse, pytest' 2>/dev/null; then
+            command -v "$python"
+            return
+        fi
+    done
+}
+
 # Other versions of clang-format lay some lines out in another way: 14 where there are several.
 lint() {
     format=$(command -v clang-format-14 || command -v clang-format)
     tidy=$(command -v clang-tidy-14 || command -v clang-tidy)
-    find src tests bench examples lesson \( -name '*.cpp' -o -name '*.h' \) -print0 |
+    find src tests bench examples lesson python \( -name '*.cpp' -o -name '*.h' \) -print0 |
         xargs -0 "$format" --dry-run -Werror
     echo "the format is right"
     cmake --preset tidy >/dev/null
@@ -50,8 +62,15 @@ lint() {
     fi
 }
 
-# shellcheck disable=SC2086  # the list is meant to be split
+if [ $preset != dev ] || [ "${1-}" = --lesson ] || ! command -v apt-get >/dev/null; then
+    python_packages=
+fi
+# shellcheck disable=SC2086  # the lists are meant to be split
 scripts/install_packages.sh $packages
+if [ -n "$python_packages" ]; then
+    # shellcheck disable=SC2086
+    scripts/install_packages.sh $python_packages || echo "The Python module is not tested."
+fi
 cores=$(nproc 2>/dev/null || echo 2)
 if [ $preset = tidy ]; then
     lint
@@ -72,7 +91,9 @@ if [ "${1-}" = --lesson ]; then
     cmake --build --preset "$preset" --parallel "$cores" --target hemilux_program
     exec scripts/check_lesson.sh "build/$preset/hemilux" build/lesson/site
 fi
-cmake --preset "$preset" >/dev/null
+python=
+[ $preset != dev ] || python=$(python_for_tests)
+cmake --preset "$preset" ${python:+-D HEMILUX_PYTHON=ON -D Python_EXECUTABLE="$python"} >/dev/null
 cmake --build --preset "$preset" --parallel "$cores"
 
 if [ $slow = yes ]; then

@@ -20,9 +20,16 @@ brings() {
     libopenmpi-dev) command -v mpicxx ;;
     openmpi-bin) command -v mpirun ;;
     catch2) header catch2/catch.hpp || header catch2/catch_test_macros.hpp ;;
+    python3-dev) any_header 'python3*/Python.h' ;;
+    pybind11-dev) header pybind11/pybind11.h ;;
+    python3-numpy) module numpy ;;
+    python3-scipy) module scipy.sparse ;;
+    python3-pytest) module pytest ;;
     *) return 1 ;;
     esac
 }
+any_header() { for file in /usr/include/$1 /usr/local/include/$1; do [ ! -e "$file" ] || return 0; done; return 1; }
+module() { python3 -c "import $1" || /usr/bin/python3 -c "import $1"; }
 header() { [ -e "/usr/include/$1" ] || [ -e "/usr/local/include/$1" ] || [ -e "/opt/homebrew/include/$1" ]; }
 
 missing=""

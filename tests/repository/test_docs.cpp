@@ -58,8 +58,9 @@ std::vector<std::string> between(const std::string& text, const std::string& ope
 
 /// A path of this repository, as opposed to a name, a command, a pattern or a file that is made.
 bool is_source_path(const std::string& span) {
-    const std::vector<std::string> folders{"src/",  "tests/",   "bench/", "examples/",
-                                           "docs/", "scripts/", "cmake/", "CMakeLists.txt"};
+    const std::vector<std::string> folders{"src/",      "tests/",  "bench/",
+                                           "examples/", "docs/",   "scripts/",
+                                           "cmake/",    "python/", "CMakeLists.txt"};
     const bool begins = std::ranges::any_of(
         folders, [&](const std::string& folder) { return span.rfind(folder, 0) == 0; });
     return begins && span.find_first_of(" <>*{}") == std::string::npos;

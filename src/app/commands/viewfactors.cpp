@@ -2,6 +2,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/factor_audit.h"
+#include "app/commands/factor_run.h"
 #include "app/commands/factor_surfaces.h"
 #include "app/loading/load.h"
 #include "app/memory/memory.h"
@@ -18,16 +19,11 @@
 #include "io/meshes/factor_cells.h"
 #include "io/results/view_factor_files.h"
 
-#include <algorithm>
-#include <cmath>
+#include <optional>
 
 namespace hemilux {
 
 namespace {
-
-/// A factor's own error may be so much larger than the root mean square that is asked for, as exact
-/// factors have none.
-constexpr double slack_of_rms = 1.5;
 
 constexpr const char* advice_for_memory = "a larger --max-edge and fewer --rays need less";
 
@@ -77,36 +73,6 @@ void check_dense(const ViewFactorSettings& settings, std::size_t rows) {
                              "; write .npz instead, which scipy.sparse.load_npz reads");
 }
 
-/// Returns the tolerances that the aim asks for. `largest` is the smallest of the largest factors
-/// of all rows, as far as it is known.
-FactorTolerance tolerance_of(const ViewFactorSettings& settings, const FactorSurfaces& surfaces,
-                             double largest) {
-    const double error = settings.error;
-    switch (settings.aim.of) {
-    case FactorAim::Of::above:
-        return relative_above(slack_of_rms * error, settings.aim.least);
-    case FactorAim::Of::largest:
-        return relative_above(error, largest);
-    case FactorAim::Of::rows:
-        // Squares of the errors of a row add up to at most error^2 times the sum of its factors.
-        return [error](std::uint32_t, std::uint32_t, double factor) {
-            constexpr double least = 1e-3;
-            return error * std::max(std::sqrt(factor), least);
-        };
-    case FactorAim::Of::pair:
-    case FactorAim::Of::sky: // which needs no pairs
-        break;
-    }
-    const std::uint32_t a = surfaces.row_named(settings.aim.from),
-                        b = surfaces.row_named(settings.aim.to);
-    return [error, a, b, &surfaces](std::uint32_t i, std::uint32_t j, double factor) {
-        constexpr double least_of_pair = 1e-4, least_of_others = .1;
-        const std::uint32_t row = surfaces.row_of[i], column = surfaces.row_of[j];
-        const bool counts = (row == a && column == b) || (row == b && column == a);
-        return error * std::max(factor, counts ? least_of_pair : least_of_others);
-    };
-}
-
 /// Throws UsageError where --of sky is to write factors that it does not compute.
 void check_sky(const ViewFactorSettings& settings) {
     if (settings.aim.of != FactorAim::Of::sky)
@@ -118,46 +84,6 @@ void check_sky(const ViewFactorSettings& settings) {
                              ": --of sky computes no factors between surfaces; -o svf.inp... "
                              "or .vtu and --legend have sky and ground");
     }
-}
-
-/// Computes the factors; with `largest`, again where the largest factor of a row is smaller than
-/// was thought.
-ViewFactors compute(const ViewFactorSettings& settings, const LoadedSurfaces& loaded,
-                    const FactorSurfaces& surfaces, const WideBvh& tree, Monitor& monitor) {
-    const Stage stage("finding factors", settings.verbosity);
-    const Workers workers(settings.options.threads);
-    constexpr double first_guess = .01, smallest = 1e-4;
-    const auto with_largest = [&](double largest) {
-        const ExchangeOptions options{.rays = settings.rays,
-                                      .tolerance = tolerance_of(settings, surfaces, largest),
-                                      .seed = settings.options.seed,
-                                      .up = loaded.up,
-                                      .ask = memory_guard(loaded.need, settings.scene.memory,
-                                                          settings.scene.path, advice_for_memory)};
-        return view_factors(loaded.mesh, tree, surfaces.row_of, surfaces.rows.size(), options,
-                            workers, monitor);
-    };
-    if (settings.aim.of == FactorAim::Of::sky) {
-        const OpenViews views = find_open_views(loaded.mesh, tree, settings.error,
-                                                settings.options.seed, loaded.up, workers, monitor);
-        ExchangeList list;
-        for (const Patch& patch : loaded.mesh.patches())
-            list.area.push_back(patch.area);
-        list.pairs.resize(list.area.size());
-        list.unlisted_bound.resize(list.area.size());
-        list.open = views.open;
-        ViewFactors factors = sum_over_rows(list, surfaces.row_of, surfaces.rows.size());
-        factors.work.rays = views.rays;
-        return factors;
-    }
-    ViewFactors factors = with_largest(first_guess);
-    if (settings.aim.of != FactorAim::Of::largest || monitor.interrupted)
-        return factors;
-    const LargestFactors found = largest_factors(factors);
-    if (found.worst_error <= settings.error || found.smallest >= first_guess)
-        return factors;
-    factors = {}; // before there are others
-    return with_largest(std::max(found.smallest, smallest));
 }
 
 void write(const std::string& path, const ViewFactorSettings& settings, const Mesh& mesh,
@@ -194,7 +120,12 @@ int viewfactors(const ViewFactorSettings& settings) {
     const Stopwatch computing;
     const WideBvh tree(loaded.mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted.own().wished);
-    const ViewFactors factors = compute(settings, loaded, surfaces, tree, monitor);
+    std::optional<Stage> stage(std::in_place, "finding factors", settings.verbosity);
+    const ViewFactors factors = compute_factors(
+        settings,
+        {loaded.mesh, tree, surfaces, loaded.up,
+         memory_guard(loaded.need, settings.scene.memory, settings.scene.path, advice_for_memory)},
+        monitor);
     if (monitor.interrupted) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();
@@ -209,7 +140,8 @@ int viewfactors(const ViewFactorSettings& settings) {
         table.columns.push_back(Open::sky);
     if (settings.ground)
         table.columns.push_back(Open::ground);
-    const Stage stage("writing", settings.verbosity);
+    stage.reset();
+    stage.emplace("writing", settings.verbosity);
     WriteReport report;
     for (const std::string& path : settings.outputs)
         report.attempt(path, [&] { write(path, settings, loaded.mesh, surfaces, table); });

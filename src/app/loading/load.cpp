@@ -76,25 +76,6 @@ ReadResult read_by_extension(const SceneSettings& settings, const ReadGuard& gua
         path, "expected a scene of a kind that can be read: .obj, .gltf, .glb, .stl or .vs3");
 }
 
-/// Throws InputError for what no method can solve.
-void check_solvable(const ReadResult& read, const std::string& path) {
-    if (read.scene.facets.empty())
-        throw InputError(path, "there is no face with an area");
-    check_reflectances(read, path);
-    const std::vector<bool> used = materials_in_use(read.scene);
-    bool emits = false;
-    std::vector<std::string> names;
-    for (std::size_t m = 0; m < used.size(); ++m) {
-        if (!used[m])
-            continue;
-        check_emission(read.scene.materials[m], path);
-        emits = emits || read.scene.materials[m].emission != Vec3(0.0);
-        names.push_back(read.scene.materials[m].name);
-    }
-    if (!emits)
-        throw InputError(path, no_light_text(read.scene, names));
-}
-
 /// Returns whether a camera is held level only with z upwards, as where Blender exported without
 /// its option +Y Up.
 bool is_level_by_z(const Camera& camera) {
@@ -121,6 +102,24 @@ ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
     apply_overrides(read.scene, &Material::reflectance, settings.reflectance);
     add_lights(read.scene, settings);
     return read;
+}
+
+void check_solvable(const ReadResult& read, const std::string& path) {
+    if (read.scene.facets.empty())
+        throw InputError(path, "there is no face with an area");
+    check_reflectances(read, path);
+    const std::vector<bool> used = materials_in_use(read.scene);
+    bool emits = false;
+    std::vector<std::string> names;
+    for (std::size_t m = 0; m < used.size(); ++m) {
+        if (!used[m])
+            continue;
+        check_emission(read.scene.materials[m], path);
+        emits = emits || read.scene.materials[m].emission != Vec3(0.0);
+        names.push_back(read.scene.materials[m].name);
+    }
+    if (!emits)
+        throw InputError(path, no_light_text(read.scene, names));
 }
 
 InputError as_input_error(const SolveError& error, const std::string& path,

@@ -20,6 +20,10 @@ namespace hemilux {
 /// refers to is an output of the run.
 [[nodiscard]] ReadResult load_scene(const SceneSettings& settings, const RunFiles& files);
 
+/// Throws InputError for what no method can solve: no faces, a material in use that reflects more
+/// than all light, negative emission, or a scene in which nothing emits.
+void check_solvable(const ReadResult& read, const std::string& path);
+
 /// Returns what cannot be solved as an error of the file, with the line of the face.
 [[nodiscard]] InputError as_input_error(const SolveError& error, const std::string& path,
                                         std::span<const std::uint32_t> face_lines);
@@ -50,9 +54,8 @@ struct LoadedMesh {
 };
 
 /// Does all of this and reports what there is to report. Throws InputError for what no method can
-/// solve: no faces, a material in use that reflects more than all light, negative emission, or a
-/// scene in which nothing emits. Throws std::runtime_error if the methods side by side, or `before`
-/// alone, would need more memory than they may, with that of the results.
+/// solve. Throws std::runtime_error if the methods side by side, or `before` alone, would need more
+/// memory than they may, with that of the results.
 [[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                                    const SolveOptions& options,
                                    std::span<const Method* const> methods, Verbosity verbosity,

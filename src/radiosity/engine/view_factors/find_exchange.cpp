@@ -317,6 +317,24 @@ class PairsMemory {
     std::atomic<std::uint64_t> bytes_{0};
 };
 
+/// Counts rows that are done, for whoever watches.
+class RowsDone {
+  public:
+    RowsDone(Monitor& monitor, const char* phase, std::size_t rows)
+        : monitor_(monitor), rows_(static_cast<double>(rows)) {
+        monitor.step_share = 0;
+        monitor.phase = phase;
+    }
+    void add(std::size_t count) {
+        monitor_.step_share = static_cast<double>(done_ += count) / rows_;
+    }
+
+  private:
+    Monitor& monitor_;
+    double rows_;
+    std::atomic<std::size_t> done_{0};
+};
+
 } // namespace
 
 FactorTolerance relative_above(double error, double least) {
@@ -340,6 +358,7 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
     list.pairs.resize(patches);
     PairsMemory memory(options.ask);
     std::vector<std::vector<std::uint32_t>> seen(patches);
+    RowsDone looked(monitor, "finding pairs", patches);
     workers.for_chunks_with(
         patches, 16, [&] { return RowRays(mesh, tree, options.seed, options.up); },
         [&](RowRays& rays, std::size_t begin, std::size_t end) {
@@ -351,10 +370,12 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
                 list.open[i] = view.open;
             }
             monitor.rays += (end - begin) * options.rays;
+            looked.add(end - begin);
         });
     keep_higher(seen);
     std::vector<std::vector<float>> missed(patches);
     std::mutex mutex;
+    RowsDone measured(monitor, "measuring pairs", patches);
     workers.for_chunks_with(
         patches, 4, [&] { return RowPairs(mesh, tree, options, faces, seen); },
         [&](RowPairs& row, std::size_t begin, std::size_t end) {
@@ -366,6 +387,7 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
             }
             const ExchangeWork& now = row.work();
             monitor.rays += now.rays - before.rays;
+            measured.add(end - begin);
             const std::lock_guard lock(mutex);
             found.work.rays += now.rays - before.rays;
             found.work.lines += now.lines - before.lines;

@@ -1,0 +1,178 @@
+// view_factors: the factors of the program's `viewfactors`, as the arrays of a sparse matrix.
+
+#include "app/commands/factor_run.h"
+#include "app/settings/exit_code.h"
+#include "app/settings/factor_aim.h"
+#include "python/parts.h"
+#include "python/scene.h"
+#include "python/waiting.h"
+
+#include <pybind11/stl.h>
+
+#include <bit>
+
+namespace hemilux {
+namespace {
+
+FactorRows rows_of_name(const std::string& by) {
+    if (by == "face")
+        return FactorRows::face;
+    if (by == "group")
+        return FactorRows::group;
+    if (by == "material")
+        return FactorRows::material;
+    throw UsageError("by: expected 'face', 'group' or 'material', found '" + by + "'");
+}
+
+ViewFactorSettings settings_of(double error, const std::string& of, const std::string& by,
+                               std::uint32_t rays, std::uint64_t seed, unsigned threads) {
+    constexpr std::uint32_t least_rays = 256, most_rays = 1 << 20;
+    ViewFactorSettings settings;
+    if (!(error > 0 && error < 1))
+        throw UsageError("error: expected a number above 0 and below 1");
+    if (!std::has_single_bit(rays) || rays < least_rays || rays > most_rays)
+        throw UsageError("rays: expected a power of two from 256 to 1048576");
+    const std::optional<FactorAim> aim = parse_factor_aim(of);
+    if (!aim)
+        throw UsageError("of: expected 'above:F', 'rows', 'largest', 'pair:A,B' or 'sky', found '" +
+                         of + "'");
+    settings.by = rows_of_name(by);
+    settings.error = error;
+    settings.aim = *aim;
+    settings.rays = rays;
+    settings.options.seed = seed;
+    settings.options.threads = threads;
+    return settings;
+}
+
+py::dict audit_of(const ViewFactors& factors, double reciprocity) {
+    const ClosingAudit& audit = factors.audit;
+    const ExchangeWork& work = factors.work;
+    py::dict result;
+    result["lacking_rms"] = audit.lacking_rms;
+    result["lacking_worst"] = audit.lacking_worst;
+    result["worst_patch"] = audit.worst_row;
+    result["chance_rms"] = audit.chance_rms;
+    result["chance_worst"] = audit.chance_worst;
+    result["largest_move"] = audit.largest_move;
+    result["largest_exact_move"] = audit.largest_exact_move;
+    result["set_to_zero"] = audit.set_to_zero;
+    result["reciprocity"] = reciprocity;
+    result["rays"] = work.rays;
+    result["lines"] = work.lines;
+    result["exact_pairs"] = work.exact_pairs;
+    result["line_pairs"] = work.line_pairs;
+    result["ray_pairs"] = work.ray_pairs;
+    result["clear_pairs"] = work.clear_pairs;
+    return result;
+}
+
+/// Returns the factors to sky, ground and backs of all rows as (n, 3), or their standard errors.
+py::array_t<double> open_of(const ViewFactors& factors, double OpenShare::*member) {
+    static_assert(opens == 3);
+    return array_by<Vec3>(factors.rows(), [&](std::size_t i) {
+        const auto& [sky, ground, back] = factors.open[i];
+        return Vec3(sky.*member, ground.*member, back.*member);
+    });
+}
+
+py::dict result_of(ViewFactors factors, const FactorSurfaces& surfaces, double reciprocity) {
+    py::dict result;
+    py::list names;
+    std::vector<double> areas;
+    for (const FactorSurface& surface : surfaces.rows) {
+        names.append(surface.name);
+        areas.push_back(surface.area);
+    }
+    result["name"] = names;
+    result["area"] = array_of(std::move(areas));
+    result["open"] = open_of(factors, &OpenShare::factor);
+    result["open_standard_error"] = open_of(factors, &OpenShare::standard_error);
+    result["audit"] = audit_of(factors, reciprocity);
+    result["unlisted_bound"] = array_of(std::move(factors.unlisted_bound));
+    result["indptr"] = array_as<std::int64_t>(std::move(factors.row_begin));
+    result["indices"] = array_as<std::int32_t>(std::move(factors.column)); // as SciPy has them
+    result["data"] = array_of(std::move(factors.factor));
+    result["standard_error"] = array_of(std::move(factors.standard_error));
+    return result;
+}
+
+py::dict compute(const PythonMesh& mesh, double error, const std::string& of, const std::string& by,
+                 std::uint32_t rays, int up, std::uint64_t seed, unsigned threads,
+                 const py::object& progress) {
+    const ViewFactorSettings settings = settings_of(error, of, by, rays, seed, threads);
+    Monitor monitor;
+    FactorSurfaces surfaces;
+    ViewFactors factors;
+    double reciprocity = 0;
+    run_without_lock(monitor, progress, [&] {
+        surfaces = factor_surfaces(mesh.mesh(), settings.by);
+        factors =
+            compute_factors(settings, {mesh.mesh(), mesh.tree(threads), surfaces, up}, monitor);
+        reciprocity = worst_reciprocity(factors);
+    });
+    py::dict result = result_of(std::move(factors), surfaces, reciprocity);
+    result["least"] = settings.aim.least; // of above:F
+    return result;
+}
+
+/// Makes factors of the arrays of a matrix again.
+ViewFactors factors_of(const Integers& begin, const Integers& column, const Doubles& factor,
+                       const Doubles& standard_error, const Doubles& open,
+                       const Doubles& open_error) {
+    ViewFactors factors;
+    factors.row_begin.assign(begin.data(), begin.data() + begin.size());
+    factors.column.assign(column.data(), column.data() + column.size());
+    factors.factor.assign(factor.data(), factor.data() + factor.size());
+    factors.standard_error.assign(standard_error.data(),
+                                  standard_error.data() + standard_error.size());
+    const std::span<const Vec3> shares = rows_of(open), errors = rows_of(open_error);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        auto& row = factors.open.emplace_back();
+        for (std::size_t k = 0; k < opens; ++k) {
+            const int axis = static_cast<int>(k);
+            row.at(k) = {shares[i][axis], errors[i][axis]};
+        }
+    }
+    factors.area.assign(factors.open.size(), 0); // which these files do not show
+    return factors;
+}
+
+void write(const std::string& path, const FactorTable& table) {
+    switch (factor_file_of(path).value_or(FactorFile::cells)) {
+    case FactorFile::pairs:
+        return write_factor_pairs(path, table);
+    case FactorFile::dense:
+        return write_dense_factors(path, table);
+    case FactorFile::udales_factors:
+        return write_udales_factors(path, table);
+    case FactorFile::udales_sky:
+        return write_udales_sky(path, table);
+    case FactorFile::sparse: // which Python writes
+    case FactorFile::cells:
+        throw UsageError(path + ": expected .npz, .csv, .npy, vfsparse.inp... or svf.inp...");
+    }
+}
+
+void save(const std::string& path, const Integers& begin, const Integers& column,
+          const Doubles& factor, const Doubles& standard_error, const Doubles& open,
+          const Doubles& open_error, bool sky, bool ground) {
+    const ViewFactors factors = factors_of(begin, column, factor, standard_error, open, open_error);
+    const std::vector<FactorSurface> surfaces(factors.rows());
+    FactorTable table{factors, surfaces, {}};
+    if (sky)
+        table.columns.push_back(Open::sky);
+    if (ground)
+        table.columns.push_back(Open::ground);
+    const py::gil_scoped_release unlocked;
+    write(path, table);
+}
+
+} // namespace
+
+void add_view_factors(py::module_& module) {
+    module.def("view_factors", &compute);
+    module.def("save_factors", &save);
+}
+
+} // namespace hemilux

@@ -1,0 +1,87 @@
+#include "app/commands/factor_run.h"
+
+#include "app/commands/factor_audit.h"
+#include "parallel/workers.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solving/solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+/// A factor's own error may be so much larger than the root mean square that is asked for, as exact
+/// factors have none.
+constexpr double slack_of_rms = 1.5;
+
+/// Returns the tolerances that the aim asks for. `largest` is the smallest of the largest factors
+/// of all rows, as far as it is known.
+FactorTolerance tolerance_of(const ViewFactorSettings& settings, const FactorSurfaces& surfaces,
+                             double largest) {
+    const double error = settings.error;
+    switch (settings.aim.of) {
+    case FactorAim::Of::above:
+        return relative_above(slack_of_rms * error, settings.aim.least);
+    case FactorAim::Of::largest:
+        return relative_above(error, largest);
+    case FactorAim::Of::rows:
+        // Squares of the errors of a row add up to at most error^2 times the sum of its factors.
+        return [error](std::uint32_t, std::uint32_t, double factor) {
+            constexpr double least = 1e-3;
+            return error * std::max(std::sqrt(factor), least);
+        };
+    case FactorAim::Of::pair:
+    case FactorAim::Of::sky: // which needs no pairs
+        break;
+    }
+    const std::uint32_t a = surfaces.row_named(settings.aim.from),
+                        b = surfaces.row_named(settings.aim.to);
+    return [error, a, b, &surfaces](std::uint32_t i, std::uint32_t j, double factor) {
+        constexpr double least_of_pair = 1e-4, least_of_others = .1;
+        const std::uint32_t row = surfaces.row_of[i], column = surfaces.row_of[j];
+        const bool counts = (row == a && column == b) || (row == b && column == a);
+        return error * std::max(factor, counts ? least_of_pair : least_of_others);
+    };
+}
+
+} // namespace
+
+ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScene& scene,
+                            Monitor& monitor) {
+    const Workers workers(settings.options.threads);
+    constexpr double first_guess = .01, smallest = 1e-4;
+    const auto with_largest = [&](double largest) {
+        const ExchangeOptions options{.rays = settings.rays,
+                                      .tolerance = tolerance_of(settings, scene.surfaces, largest),
+                                      .seed = settings.options.seed,
+                                      .up = scene.up,
+                                      .ask = scene.ask};
+        return view_factors(scene.mesh, scene.tree, scene.surfaces.row_of,
+                            scene.surfaces.rows.size(), options, workers, monitor);
+    };
+    if (settings.aim.of == FactorAim::Of::sky) {
+        const OpenViews views = find_open_views(scene.mesh, scene.tree, settings.error,
+                                                settings.options.seed, scene.up, workers, monitor);
+        ExchangeList list;
+        for (const Patch& patch : scene.mesh.patches())
+            list.area.push_back(patch.area);
+        list.pairs.resize(list.area.size());
+        list.unlisted_bound.resize(list.area.size());
+        list.open = views.open;
+        ViewFactors factors =
+            sum_over_rows(list, scene.surfaces.row_of, scene.surfaces.rows.size());
+        factors.work.rays = views.rays;
+        return factors;
+    }
+    ViewFactors factors = with_largest(first_guess);
+    if (settings.aim.of != FactorAim::Of::largest || monitor.interrupted)
+        return factors;
+    const LargestFactors found = largest_factors(factors);
+    if (found.worst_error <= settings.error || found.smallest >= first_guess)
+        return factors;
+    factors = {}; // before there are others
+    return with_largest(std::max(found.smallest, smallest));
+}
+
+} // namespace hemilux

@@ -1,0 +1,27 @@
+#pragma once
+// Computes view factors to the error that was asked for, whichever factors it is of.
+
+#include "app/commands/factor_surfaces.h"
+#include "bvh/wide/wide_bvh.h"
+#include "radiosity/engine/view_factors/view_factors.h"
+
+#include <functional>
+
+namespace hemilux {
+
+/// What factors are computed of; all of it but the values outlives the run.
+struct FactorScene {
+    const Mesh& mesh;
+    const WideBvh& tree; ///< tree of the mesh
+    const FactorSurfaces& surfaces;
+    int up;                                     ///< axis that points to the sky
+    std::function<void(double bytes)> ask = {}; ///< ExchangeOptions::ask
+};
+
+/// Computes the factors by `error`, `aim`, `rays`, seed and threads of the settings. With `largest`
+/// it does so again where the largest factor of a row is smaller than was thought. The result is
+/// void if the monitor was interrupted. Throws UsageError for a pair of which one has no surface.
+[[nodiscard]] ViewFactors compute_factors(const ViewFactorSettings& settings,
+                                          const FactorScene& scene, Monitor& monitor);
+
+} // namespace hemilux
