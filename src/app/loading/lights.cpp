@@ -1,11 +1,14 @@
 #include "app/loading/lights.h"
 
+#include "geometry/elementary.h"
 #include "geometry/numeric.h"
 #include "io/files/text_words.h"
 #include "io/scene_files/emitter_shapes.h"
+#include "radiosity/engine/rays/point_emitter.h"
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <string_view>
 
 namespace hemilux {
@@ -15,9 +18,27 @@ std::string numbered(const std::string& name, std::size_t number) {
     return name + " " + std::to_string(number);
 }
 
+/// Adds a point or a spot.
+void add_light_without_extent(Scene& scene, const LightSettings& light, const std::string& name) {
+    constexpr double degree = std::numbers::pi / 180;
+    PointEmitter emitter{.name = name, .position = light.at};
+    if (light.kind == LightSettings::Kind::spot) {
+        emitter.axis = direction_of(light.towards);
+        emitter.cos_inner = elementary::cos(degree * light.inner);
+        emitter.cos_outer = elementary::cos(degree * light.outer);
+    }
+    emitter.intensity =
+        light.intensity ? *light.intensity : *light.watts / power_per_intensity(emitter);
+    add_point_emitter(scene, emitter);
+}
+
 void add_lamp(Scene& scene, const LightSettings& light, const std::string& name) {
+    if (!light.has_extent()) {
+        add_light_without_extent(scene, light, name);
+        return;
+    }
     const Vec3 normal = direction_of(light.towards);
-    const EmitterShape shape = light.is_disc
+    const EmitterShape shape = light.kind == LightSettings::Kind::disc
                                    ? disc(light.at, normal, light.width / 2)
                                    : rectangle(light.at, normal, light.width, light.height);
     add_emitter(scene, shape, name, light.emission ? *light.emission : *light.watts / shape.area());

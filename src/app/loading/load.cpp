@@ -20,6 +20,7 @@
 #include "parallel/workers.h"
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/layers/layered_mesh.h"
 
 #include <algorithm>
@@ -78,7 +79,10 @@ void check_solvable(const ReadResult& read, const std::string& path) {
         throw InputError(path, "there is no face with an area");
     check_reflectances(read, path);
     const std::vector<bool> used = materials_in_use(read.scene);
-    bool emits = false;
+    bool emits =
+        std::ranges::any_of(point_emitters_of(read.scene), [](const PointEmitter& emitter) {
+            return emitter.intensity != Vec3(0.0);
+        });
     std::vector<std::string> names;
     for (std::size_t m = 0; m < used.size(); ++m) {
         if (!used[m])
