@@ -117,6 +117,9 @@ ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
     for (const std::string& texture : read.textures)
         if (std::error_code ignored; std::filesystem::exists(texture, ignored))
             files.read("texture", texture);
+    for (const LightSettings& light : settings.lights)
+        if (!light.photometry.empty())
+            files.read("photometry", light.photometry);
     apply_overrides(read.scene, &Material::emission, settings.emission);
     apply_overrides(read.scene, &Material::reflectance, settings.reflectance);
     add_lights(read.scene, settings);

@@ -1,6 +1,7 @@
 #include "app/settings/lights.h"
 
 #include "app/settings/numbers.h"
+#include "geometry/numeric.h"
 
 #include <algorithm>
 #include <sstream>
@@ -26,7 +27,9 @@ std::optional<Kind> kind_of(const std::string& word) {
         return Kind::rectangle;
     if (word == "point")
         return Kind::point;
-    return word == "spot" ? std::optional(Kind::spot) : std::nullopt;
+    if (word == "spot")
+        return Kind::spot;
+    return word == "ies" ? std::optional(Kind::ies) : std::nullopt;
 }
 
 /// Returns where a light keeps the strength that the word names; nullptr for another word.
@@ -35,7 +38,10 @@ std::optional<Vec3>* strength_of(LightSettings& light, const std::string& word) 
         return &light.watts;
     if (word == "emission" && light.has_extent())
         return &light.emission;
-    return word == "intensity" && !light.has_extent() ? &light.intensity : nullptr;
+    if (word == "scale" && light.kind == Kind::ies)
+        return &light.scale;
+    const bool has_intensity = light.kind == Kind::point || light.kind == Kind::spot;
+    return word == "intensity" && has_intensity ? &light.intensity : nullptr;
 }
 
 /// Returns whether the value belongs to the word, and was read.
@@ -44,6 +50,10 @@ bool read_pair(LightSettings& light, const std::string& word, const std::string&
         const std::optional<Vec3> vector = vector_of(value);
         (word == "at" ? light.at : light.towards) = vector.value_or(Vec3(0.0));
         return vector.has_value();
+    }
+    if (word == "across" && light.kind == Kind::ies) {
+        light.across = vector_of(value).value_or(Vec3(0.0));
+        return light.across != Vec3(0.0);
     }
     if (std::optional<Vec3>* const strength = strength_of(light, word))
         return (*strength = parse_colour(value, non_negative)).has_value();
@@ -68,12 +78,16 @@ bool read_pair(LightSettings& light, const std::string& word, const std::string&
 bool is_complete(const LightSettings& light) {
     constexpr double widest = 90;
     const int strengths = int{light.watts.has_value()} + int{light.emission.has_value()} +
-                          int{light.intensity.has_value()};
+                          int{light.intensity.has_value()} + int{light.scale.has_value()};
     const bool has_size = !light.has_extent() || (light.width > 0 && light.height > 0);
     const bool has_cone = light.kind != Kind::spot ||
                           (0 <= light.inner && light.inner < light.outer && light.outer <= widest);
     const bool has_direction = light.kind == Kind::point || light.towards != Vec3(0.0);
-    return strengths == 1 && has_size && has_cone && has_direction;
+    const bool has_strength = light.kind == Kind::ies ? strengths <= 1 : strengths == 1;
+    const bool is_turned =
+        light.across == Vec3(0.0) || !has_direction ||
+        glm::cross(direction_of(light.across), direction_of(light.towards)) != Vec3(0.0);
+    return has_strength && has_direction && is_turned && has_size && has_cone;
 }
 
 } // namespace
@@ -86,6 +100,8 @@ std::optional<LightSettings> parse_light(std::string_view text) {
     if (const std::optional<Kind> known = kind_of(kind))
         light.kind = *known;
     else
+        return std::nullopt;
+    if (light.kind == Kind::ies && !(words >> light.photometry))
         return std::nullopt;
     std::vector<std::string> given;
     while (words >> word) {

@@ -3,11 +3,13 @@
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
+#include "radiosity/engine/rays/candela_table.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <limits>
+#include <span>
 
 namespace hemilux {
 namespace {
@@ -140,6 +142,11 @@ std::uint64_t scene_hash(const Mesh& mesh) {
             out.add(v);
         out.add(emitter.cos_inner);
         out.add(emitter.cos_outer);
+        if (!emitter.table)
+            continue;
+        out.add(emitter.side);
+        for (const std::span<const double> numbers : emitter.table->numbers())
+            out.add(numbers);
     }
     flush();
     for (const Patch& patch : mesh.patches()) {

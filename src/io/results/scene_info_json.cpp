@@ -45,7 +45,7 @@ Json to_list(const std::vector<PointInfo>& points) {
     Json list = Json::array();
     for (const PointInfo& point : points)
         list.push_back({{"name", point.name},
-                        {"kind", point.is_spot ? "spot" : "point"},
+                        {"kind", point.kind},
                         {"intensity", vector(point.intensity)},
                         {"power", vector(point.power)}});
     return list;

@@ -92,11 +92,10 @@ std::string describe_points(const std::vector<PointInfo>& points) {
     std::string text;
     for (std::size_t k = 0; k < std::min(points.size(), most); ++k) {
         const PointInfo& point = points[k];
-        text += info_line(k == 0 ? "without extent" : "",
-                          point.name + ": a " + (point.is_spot ? "spot" : "point") + ", " +
-                              text_of_colour(point.intensity) + " W/sr, " +
-                              text_of(point.power.x + point.power.y + point.power.z) +
-                              " W in all channels");
+        text += info_line(
+            k == 0 ? "without extent" : "",
+            point.name + ": a " + point.kind + ", " + text_of_colour(point.intensity) + " W/sr, " +
+                text_of(point.power.x + point.power.y + point.power.z) + " W in all channels");
     }
     if (points.size() > most)
         text += info_line("", "and " + std::to_string(points.size() - most) + " more");
@@ -140,7 +139,12 @@ SceneInfo inspect(const ReadResult& read) {
     sum_areas(scene, info);
     for (const PointEmitter& emitter : point_emitters_of(scene)) {
         const Vec3 power = power_per_intensity(emitter) * emitter.intensity;
-        info.points.push_back({emitter.name, emitter.cos_outer >= -1, emitter.intensity, power});
+        info.points.push_back({emitter.name,
+                               emitter.table       ? "measured lamp"
+                               : emitter.is_spot() ? "spot"
+                                                   : "point",
+                               relative_intensity(emitter, emitter.axis) * emitter.intensity,
+                               power});
         info.emitted_power += power;
     }
     const EdgeCounts edges = count_edges(scene);

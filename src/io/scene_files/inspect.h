@@ -23,9 +23,9 @@ struct EmitterInfo {
 /// A light without extent.
 struct PointInfo {
     std::string name;
-    bool is_spot;
-    Vec3 intensity; ///< on its axis [W/sr]
-    Vec3 power;     ///< [W]
+    std::string kind; ///< point, spot or measured lamp
+    Vec3 intensity;   ///< on its axis [W/sr]
+    Vec3 power;       ///< [W]
 };
 
 struct SceneInfo {

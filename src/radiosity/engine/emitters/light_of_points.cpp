@@ -42,7 +42,7 @@ double max_intensity_towards(const PointEmitter& emitter, const Patch& patch) {
     const Vec3 way = patch.centre - emitter.position;
     const double distance = glm::length(way), sine = radius_of(patch) / distance;
     if (!(sine < 1)) // the light is within the ball around the patch
-        return max_relative_intensity(emitter, emitter.axis, 1, 0);
+        return max_relative_intensity(emitter);
     return max_relative_intensity(emitter, way / distance, std::sqrt(1 - sine * sine), sine);
 }
 

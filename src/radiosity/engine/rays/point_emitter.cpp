@@ -3,6 +3,7 @@
 #include "geometry/elementary.h"
 #include "geometry/frame.h"
 #include "geometry/numeric.h"
+#include "radiosity/engine/rays/candela_table.h"
 #include "radiosity/paper/scene/scene.h"
 
 #include <algorithm>
@@ -31,12 +32,20 @@ double within_cone(const PointEmitter& emitter, double cosine) {
 } // namespace
 
 double relative_intensity(const PointEmitter& emitter, const Vec3& direction) {
+    if (emitter.table)
+        return emitter.table->towards(direction, emitter.axis, emitter.side);
     return within_cone(emitter, glm::dot(direction, emitter.axis));
+}
+
+double max_relative_intensity(const PointEmitter& emitter) {
+    return emitter.table ? emitter.table->largest() : 1;
 }
 
 /// The nearest direction to the axis is turned towards it by the whole angle.
 double max_relative_intensity(const PointEmitter& emitter, const Vec3& direction, double cosine,
                               double sine) {
+    if (emitter.table)
+        return emitter.table->largest();
     const double from_axis = glm::dot(direction, emitter.axis);
     if (from_axis >= cosine)
         return 1;
@@ -53,6 +62,8 @@ Vec3 random_direction(const PointEmitter& emitter, Vec2 u) {
 
 /// The integral of the square between the cones, over the cosine, is a third.
 double power_per_intensity(const PointEmitter& emitter) {
+    if (emitter.table)
+        return emitter.table->flux();
     const double inner = std::max(emitter.cos_inner, -1.0),
                  outer = std::max(emitter.cos_outer, -1.0);
     return 2 * std::numbers::pi * (1 - inner + (inner - outer) / 3);

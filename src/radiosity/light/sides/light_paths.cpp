@@ -74,7 +74,8 @@ Ray ray_from(const Mesh& mesh, const PointEmitter& emitter, Rng& rng) {
     Vec3 direction = emitter.axis;
     for (int i = 0; i < max_tries; ++i) {
         direction = random_direction(emitter, {rng.uniform(), rng.uniform()});
-        if (rng.uniform() < relative_intensity(emitter, direction))
+        if (rng.uniform() * max_relative_intensity(emitter) <
+            relative_intensity(emitter, direction))
             break;
     }
     return {.origin = mesh.frame().to_local(emitter.position),

@@ -138,7 +138,7 @@ TEST_CASE("All methods find the light of points, with its energy", "[slow]") {
     const Vec3 power = power_of_point_emitters(model.mesh.scene());
     const Needs needs = find_needs(model.mesh);
     SolveOptions options;
-    options.rays = 400;
+    options.rays = 200;
     const auto solved = [&](const Method& method, const StopRule& stop) {
         Monitor monitor;
         const SolverInput input{model.mesh, model.bvh, options, monitor, needs};
@@ -146,17 +146,16 @@ TEST_CASE("All methods find the light of points, with its energy", "[slow]") {
         run(*solver, input, stop);
         return solver->solution();
     };
-    const Solution truth = solved(*find_method("matrix"), {.error = .002});
+    const Solution truth = solved(*find_method("stored-transport"), {.error = .004});
     for (const Method* method : methods()) {
         CAPTURE(method->name);
-        const Solution found =
-            solved(*method, {.steps = method->default_stop.steps.value_or(8), .error = .01});
+        const Solution found = solved(*method, {.steps = 8, .error = .02});
         CHECK(found.energy.imbalance() < 1e-9);
         for (int c = 0; c < 3; ++c)
             CHECK(found.energy.emitted[c] == Approx(power[c]));
         const double error = true_error(model.mesh, found.radiosity, truth.radiosity).all;
         CAPTURE(error, estimated_error(model.mesh, found));
-        CHECK(error < .03);
+        CHECK(error < .05);
         CHECK(error < 3 * estimated_error(model.mesh, found) + .004);
     }
 }

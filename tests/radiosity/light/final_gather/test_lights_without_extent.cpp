@@ -1,5 +1,6 @@
 // What lights without extent bring to points, against I cos / r^2.
 #include "parallel/workers.h"
+#include "radiosity/engine/rays/candela_table.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/cached_light/light_cache.h"
 #include "radiosity/light/final_gather/gather_in_parts.h"
@@ -10,7 +11,9 @@
 #include "support/solve.h"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <vector>
 
 using namespace hemilux;
 using test::Model;
@@ -94,6 +97,32 @@ TEST_CASE("A point and a spot bring I cos / r^2 to ten places, and nothing behin
     }
 }
 
+TEST_CASE("A measured lamp brings its intensity over r^2 to ten places") {
+    // Bilinear: 100 + gamma / 2 - C / 9 [cd], symmetric to the plane of C = 0.
+    std::vector<double> gamma{0, 30, 90}, c{0, 60, 180}, candela;
+    for (const double around : c)
+        for (const double from_nadir : gamma)
+            candela.push_back(100 + from_nadir / 2 - around / 9);
+    const PointEmitter lamp{.name = "l",
+                            .position = place,
+                            .axis = {0, -1, 0},
+                            .intensity = Vec3(1, .5, 0),
+                            .table = std::make_shared<CandelaTable>(gamma, c, candela),
+                            .side = {1, 0, 0}};
+    const Model model(ground_below({lamp}));
+    const std::vector<Vec3> places = ten_places();
+    const std::vector<PointLight> found = light_of(model, places);
+    for (std::size_t k = 0; k < 8; ++k) {
+        const Vec3 way = places[k] - place;
+        const double r = glm::length(way);
+        const double from_nadir = std::acos(-way.y / r) * 180 / pi;
+        const double around = std::acos(way.x / std::hypot(way.x, way.z)) * 180 / pi;
+        const double expected = (100 + from_nadir / 2 - around / 9) * -way.y / (r * r * r);
+        CHECK(found[k].irradiance.x == Approx(expected).epsilon(1e-6));
+        CHECK(found[k].irradiance.y == Approx(expected / 2).epsilon(1e-6));
+    }
+}
+
 TEST_CASE("Hundreds of lights are right on average, with their errors") {
     std::vector<PointEmitter> lights;
     for (int k = 0; k < 300; ++k)
@@ -171,7 +200,7 @@ TEST_CASE("In a white sphere the light of a point is that of an integrating sphe
     CHECK(found.irradiance.x == Approx(direct + indirect).epsilon(.01));
 }
 
-TEST_CASE("Walks from points find what patches lack of the light of a spot") {
+TEST_CASE("Walks from points find what patches lack of the light of a spot", "[slow]") {
     // The edge of a spot on one large patch: gathers read its mean, walks its place.
     Scene scene = test::box_room({-1, 0, -1}, {1, 2, 1}, 1, {{"wall", Vec3(.7), Vec3(0)}},
                                  {0, 0, 0, 0, 0, 0});
@@ -191,15 +220,15 @@ TEST_CASE("Walks from points find what patches lack of the light of a spot") {
             sensor_at(of.mesh, of.bvh, of.mesh.frame().to_local({0, 2, 0}), {0, -1, 0});
         const StopFlag never;
         const ReadError read = cache.learn(std::vector<TargetPart>{{{sensor.at}, {Vec3(1.0)}}},
-                                           {.error = .01}, Workers(0), never);
+                                           {.error = .02}, Workers(0), never);
         const PointLight found =
             light_at(std::vector{sensor}, of.mesh, of.bvh, cache.light(),
-                     {.rays = 16384, .read_error = read.error * read.level}, Workers(0))
+                     {.rays = 4096, .read_error = read.error * read.level}, Workers(0))
                 .lights[0];
         return found;
     };
     const PointLight coarse = read_at_ceiling(model, solved(model));
-    const Model fine(scene, {.max_edge = .05});
+    const Model fine(scene, {.max_edge = .1});
     const PointLight right = read_at_ceiling(fine, solved(fine));
     CHECK(std::abs(coarse.irradiance.x - right.irradiance.x) <
           4 * (coarse.standard_error.x + right.standard_error.x));
