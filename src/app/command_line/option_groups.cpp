@@ -55,8 +55,9 @@ void add_sides_options(Command command, SceneSettings& scene) {
 void add_light_options(Command command, SceneSettings& scene) {
     add_parsed(
         command, "--light", "TEXT",
-        "add a lamp, as 'disc at 0,2.4,0 towards 0,-1,0 radius 0.2 watts 60' or 'rectangle at ... "
-        "towards ... size 1x0.5 emission 20'; repeatable",
+        "add a lamp, as 'disc at 0,2.4,0 towards 0,-1,0 radius 0.2 watts 60', 'rectangle at ... "
+        "towards ... size 1x0.5 emission 20', 'point at ... watts 60', 'spot at ... towards ... "
+        "inner 20 outer 30 intensity 100' or 'ies lamp.ies at ... towards ...'; repeatable",
         light_form, [](const std::string& text) { return parse_light(text); },
         [&scene](const LightSettings& light) { scene.lights.push_back(light); })
         .repeatable();

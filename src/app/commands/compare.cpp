@@ -20,6 +20,7 @@
 #include "app/terminal/summary.h"
 #include "app/terminal/unused_options.h"
 #include "app/terminal/wrap.h"
+#include "radiosity/engine/emitters/lit_by_points.h"
 #include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/paper/sampling/rng.h"
 
@@ -54,7 +55,7 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
         .mesh = mesh, .tracer = tracer, .options = options, .monitor = monitor, .needs = needs};
     Progress progress(monitor, share_of(stop, method), wants_bar(settings));
     progress.set_topic("reference");
-    const std::unique_ptr<Solver> solver = method.make(input);
+    const std::unique_ptr<Solver> solver = make_solver(method, input);
     run(*solver, input, stop, [&](const StepRecord& record, const Solution&) {
         progress.step_done(record);
         log_line(settings.verbosity, Verbosity::verbose,

@@ -34,6 +34,7 @@
 #include "io/lightmaps/charts.h"
 #include "io/results/points.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/emitters/lit_by_points.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/left_out.h"
 #include "radiosity/engine/solving/shared_stop.h"
@@ -200,7 +201,7 @@ std::unique_ptr<Solver> begin(Problem& problem) {
     problem.options.rays =
         rays_of_step(settings.options.rays, settings.stop.seconds, method, patches);
     problem.options.stop = stop_rule(settings, patches);
-    return settings.plain ? method.plain(problem.input()) : method.make(problem.input());
+    return make_solver(method, problem.input(), settings.plain);
 }
 
 /// Divides the patches where --divide auto asks for it.

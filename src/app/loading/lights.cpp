@@ -1,11 +1,16 @@
 #include "app/loading/lights.h"
 
+#include "geometry/elementary.h"
 #include "geometry/numeric.h"
+#include "io/files/error.h"
 #include "io/files/text_words.h"
 #include "io/scene_files/emitter_shapes.h"
+#include "io/scene_files/ies.h"
+#include "radiosity/engine/rays/point_emitter.h"
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <string_view>
 
 namespace hemilux {
@@ -15,9 +20,48 @@ std::string numbered(const std::string& name, std::size_t number) {
     return name + " " + std::to_string(number);
 }
 
+/// Returns the direction C = 0: the part of the one asked for, or of the coordinate axis nearest to
+/// being perpendicular, that is across the axis of the light.
+Vec3 side_of(const LightSettings& light, const Vec3& axis) {
+    const Vec3 a = glm::abs(axis);
+    const Vec3 nearest = a.x <= a.y && a.x <= a.z ? Vec3(1, 0, 0)
+                         : a.y <= a.z             ? Vec3(0, 1, 0)
+                                                  : Vec3(0, 0, 1);
+    const Vec3 asked = light.across == Vec3(0.0) ? nearest : direction_of(light.across);
+    return glm::normalize(asked - glm::dot(asked, axis) * axis);
+}
+
+/// Adds a point, a spot or a measured lamp.
+void add_light_without_extent(Scene& scene, const LightSettings& light, const std::string& name) {
+    constexpr double degree = std::numbers::pi / 180;
+    PointEmitter emitter{.name = name, .position = light.at};
+    if (light.kind != LightSettings::Kind::point)
+        emitter.axis = direction_of(light.towards);
+    if (light.kind == LightSettings::Kind::spot) {
+        emitter.cos_inner = elementary::cos(degree * light.inner);
+        emitter.cos_outer = elementary::cos(degree * light.outer);
+    }
+    if (light.kind == LightSettings::Kind::ies) {
+        emitter.table = read_ies(light.photometry);
+        emitter.side = side_of(light, emitter.axis);
+        emitter.intensity = light.scale.value_or(Vec3(1.0));
+        if (light.watts && !(power_per_intensity(emitter) > 0))
+            throw InputError(light.photometry, "expected a lamp that shines, to scale it to watts");
+    }
+    if (light.intensity)
+        emitter.intensity = *light.intensity;
+    if (light.watts)
+        emitter.intensity = *light.watts / power_per_intensity(emitter);
+    add_point_emitter(scene, emitter);
+}
+
 void add_lamp(Scene& scene, const LightSettings& light, const std::string& name) {
+    if (!light.has_extent()) {
+        add_light_without_extent(scene, light, name);
+        return;
+    }
     const Vec3 normal = direction_of(light.towards);
-    const EmitterShape shape = light.is_disc
+    const EmitterShape shape = light.kind == LightSettings::Kind::disc
                                    ? disc(light.at, normal, light.width / 2)
                                    : rectangle(light.at, normal, light.width, light.height);
     add_emitter(scene, shape, name, light.emission ? *light.emission : *light.watts / shape.area());

@@ -22,6 +22,7 @@
 #include "parallel/workers.h"
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/layers/layered_mesh.h"
 
 #include <algorithm>
@@ -98,6 +99,9 @@ ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
     for (const std::string& texture : read.textures)
         if (std::error_code ignored; std::filesystem::exists(texture, ignored))
             files.read("texture", texture);
+    for (const LightSettings& light : settings.lights)
+        if (!light.photometry.empty())
+            files.read("photometry", light.photometry);
     apply_overrides(read.scene, &Material::emission, settings.emission);
     apply_overrides(read.scene, &Material::reflectance, settings.reflectance);
     add_lights(read.scene, settings);
@@ -109,7 +113,10 @@ void check_solvable(const ReadResult& read, const std::string& path) {
         throw InputError(path, "there is no face with an area");
     check_reflectances(read, path);
     const std::vector<bool> used = materials_in_use(read.scene);
-    bool emits = false;
+    bool emits =
+        std::ranges::any_of(point_emitters_of(read.scene), [](const PointEmitter& emitter) {
+            return emitter.intensity != Vec3(0.0);
+        });
     std::vector<std::string> names;
     for (std::size_t m = 0; m < used.size(); ++m) {
         if (!used[m])

@@ -7,6 +7,7 @@
 #include "io/files/text_words.h"
 #include "io/scene_files/inspect.h"
 #include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/engine/rays/point_emitter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +89,9 @@ std::string both_sides_text(const Scene& scene) {
 
 /// Returns the power that is reflected, relative to what is emitted [-]; both over all channels.
 double reflected_share(const Mesh& mesh, std::span<const Vec3> radiosity) {
-    double reflected = 0, emitted = 0;
+    const Vec3 of_points = power_of_point_emitters(mesh.scene());
+    double reflected = 0;
+    double emitted = glm::dot(of_points, Vec3(1.0)) / mesh.frame().area_to_world(1.0);
     for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
         const Vec3 power = mesh.patches()[i].area * mesh.material(i).emission;
         emitted += glm::dot(power, Vec3(1.0));

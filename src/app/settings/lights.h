@@ -5,21 +5,33 @@
 #include "geometry/vector.h"
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace hemilux {
 
-/// An emitter of one disc or rectangle.
+/// An emitter of one disc or rectangle, or a light without extent.
 struct LightSettings {
-    bool is_disc = false;
+    enum class Kind { disc, rectangle, point, spot, ies };
+    Kind kind = Kind::disc;
     Vec3 at{0.0}, towards{0.0};   ///< its middle [m]; the direction in which it shines
     double width = 0, height = 0; ///< sides of a rectangle; for a disc both are its diameter [m]
-    std::optional<Vec3> watts;    ///< power that it emits in all, by channel [W]
-    std::optional<Vec3> emission; ///< [W/m2]; one of the two is given
+    double inner = 0, outer = 45; ///< cones of a spot: angles from its axis [degrees]
+    /// One of them is given: the power that it emits in all, by channel [W]; what a surface emits
+    /// [W/m2]; what a light without extent sends along its axis [W/sr].
+    std::optional<Vec3> watts, emission, intensity;
+    std::string photometry;    ///< path of an IES file; it has a strength of its own
+    Vec3 across{0.0};          ///< the direction C = 0 of it; 0: along the nearest axis
+    std::optional<Vec3> scale; ///< of its intensities [-]
+
+    [[nodiscard]] bool has_extent() const { return kind == Kind::disc || kind == Kind::rectangle; }
 };
 inline constexpr const char* light_form =
     "disc at X,Y,Z towards X,Y,Z radius R watts W, or rectangle at X,Y,Z towards X,Y,Z size WxH "
-    "watts W; emission E in place of watts; W and E are one number or R,G,B";
+    "watts W, or point at X,Y,Z watts W, or spot at X,Y,Z towards X,Y,Z inner DEGREES outer "
+    "DEGREES watts W, or ies FILE at X,Y,Z towards X,Y,Z; in place of watts, emission E of a "
+    "surface or intensity I of a point or spot; for ies, watts or scale S, and across X,Y,Z (its "
+    "direction C = 0) may be left out; W, E, I and S are one number or R,G,B";
 /// Reads this form, the pairs of words in any order; empty for any other text.
 [[nodiscard]] std::optional<LightSettings> parse_light(std::string_view text);
 

@@ -170,7 +170,7 @@ void Reader::add_camera(const Instance& instance) {
 
 void Reader::add_lights() {
     const Box bounds = bounds_of(result_.scene);
-    std::array<std::size_t, 3> count{};
+    std::size_t directional = 0;
     for (const Instance& instance : instances_) {
         const Node& node = document_.nodes[instance.node];
         if (!node.light)
@@ -181,17 +181,15 @@ void Reader::add_lights() {
         if (!(length > 0) || !(glm::length(position) <= largest_number) || !std::isfinite(length))
             fail("/nodes/" + std::to_string(instance.node),
                  "expected a transform that gives the light a place and a direction");
-        ++count[static_cast<std::size_t>(light.kind)];
         add_light(result_.scene,
                   {light, position, -back / length, name_or(node.name, "light", instance.node)},
                   bounds);
+        if (light.kind != Light::Kind::directional)
+            continue;
+        ++directional;
         result_.material_source.push_back(path_ + ": /nodes/" + std::to_string(instance.node));
     }
-    warn(count[0], "a point light is a small emitter of the same flux",
-         "point lights are small emitters of the same flux");
-    warn(count[1], "a spot light is a small disc of the same flux, which shines by the cosine law",
-         "spot lights are small discs of the same flux, which shine by the cosine law");
-    warn(count[2], "a directional light is a distant disc as wide as the sun",
+    warn(directional, "a directional light is a distant disc as wide as the sun",
          "directional lights are distant discs as wide as the sun");
 }
 

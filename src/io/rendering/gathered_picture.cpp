@@ -134,7 +134,7 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first, in
     const std::vector<PictureGather::Light> lights = gather_.irradiance(places);
     for (std::size_t k = 0; k < shown.size(); ++k) {
         const auto& [x, y, patch, colours] = shown[k];
-        const auto& [direct, slow] = lights[k];
+        const auto& [direct, slow, of_points] = lights[k];
         const glm::vec3 reflectance(colours.reflectance);
         const Part part{.position = glm::vec3(places[k].at.position),
                         .direct = glm::vec3(direct.arriving),
@@ -142,7 +142,8 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first, in
                         .reflected = reflectance * slow.unshadowed,
                         .patch = patch,
                         .share = float(places[k].count) / float(offsets_.size())};
-        image_.at(x, y) += part.share * (glm::vec3(colours.emission) + reflectance * slow.indirect);
+        image_.at(x, y) += part.share * (glm::vec3(colours.emission) +
+                                         reflectance * (slow.indirect + glm::vec3(of_points)));
         if (places[k].count == offsets_.size())
             whole_[image_.index(x, y)] = part;
         else

@@ -153,13 +153,14 @@ void PictureGather::judge_points(const Workers& workers) {
 /// Traces shadow rays where some rays of the points around were blocked and some were not. Where no
 /// point is around, it traces all rays.
 std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Place> places) const {
-    SomePoints alone, in_penumbra;
+    SomePoints all, alone, in_penumbra;
     std::vector<Light> found(places.size());
     const unsigned each = of_sample(), of_pixel = shadow_rays();
     for (std::size_t k = 0; k < places.size(); ++k) {
         const Place& place = places[k];
         const int x = static_cast<int>(place.pixel.x), y = static_cast<int>(place.pixel.y);
-        auto& [direct, slow] = found[k];
+        auto& [direct, slow, of_points] = found[k];
+        all.add(k, place.at, samples_of(x, y, of_pixel));
         std::optional<SlowLightField::Around> around =
             light_.interpolate(place.at, place.pixel, place.part);
         if (options_.gathers_coarse && around && around->is_coarse)
@@ -178,6 +179,9 @@ std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Plac
         samples.count = each * place.count;
         in_penumbra.add(k, place.at, samples);
     }
+    const std::vector<Vec3> of_points = in_parts_.from_points(all.points, all.samples);
+    for (std::size_t k = 0; k < places.size(); ++k)
+        found[k].of_points = of_points[k];
     const std::vector<EmitterLight> direct =
         in_parts_.direct(in_penumbra.points, in_penumbra.samples, Shadows::traced);
     for (std::size_t i = 0; i < direct.size(); ++i)

@@ -59,6 +59,7 @@ class PictureGather {
     struct Light {
         EmitterLight direct;
         SlowLight slow;
+        Vec3 of_points{0.0}; ///< from lights without extent, as it arrives at the place
     };
     /// Returns the light at each place. Several threads may call it.
     [[nodiscard]] std::vector<Light> irradiance(std::span<const Place> places) const;

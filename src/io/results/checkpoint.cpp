@@ -3,10 +3,13 @@
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
+#include "radiosity/engine/rays/candela_table.h"
+#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <limits>
+#include <span>
 
 namespace hemilux {
 namespace {
@@ -133,6 +136,17 @@ std::uint64_t scene_hash(const Mesh& mesh) {
     for (const Material& material : mesh.scene().materials) {
         out.add(material.reflectance);
         out.add(material.emission);
+    }
+    for (const PointEmitter& emitter : point_emitters_of(mesh.scene())) {
+        for (const Vec3& v : {emitter.position, emitter.axis, emitter.intensity})
+            out.add(v);
+        out.add(emitter.cos_inner);
+        out.add(emitter.cos_outer);
+        if (!emitter.table)
+            continue;
+        out.add(emitter.side);
+        for (const std::span<const double> numbers : emitter.table->numbers())
+            out.add(numbers);
     }
     flush();
     for (const Patch& patch : mesh.patches()) {

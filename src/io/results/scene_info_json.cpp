@@ -41,6 +41,16 @@ Json to_list(const std::vector<EmitterInfo>& emitters) {
     return list;
 }
 
+Json to_list(const std::vector<PointInfo>& points) {
+    Json list = Json::array();
+    for (const PointInfo& point : points)
+        list.push_back({{"name", point.name},
+                        {"kind", point.kind},
+                        {"intensity", vector(point.intensity)},
+                        {"power", vector(point.power)}});
+    return list;
+}
+
 Json to_object(const SceneReport& report) {
     const SceneInfo& info = report.info;
     return {
@@ -58,6 +68,7 @@ Json to_object(const SceneReport& report) {
         {"emitted_power", vector(info.emitted_power)},
         {"emitting_materials", names_of(info.emitters)},
         {"emitters", to_list(info.emitters)},
+        {"lights_without_extent", to_list(info.points)},
         {"faces_without_area", info.degenerate_faces},
         {"faces_not_planar", info.nonplanar_faces},
         {"faces_concave", info.concave_faces},

@@ -4,6 +4,7 @@
 #include "io/files/text_words.h"
 #include "io/scene_files/emitter_shapes.h"
 #include "radiosity/engine/needs/welded_edges.h"
+#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/layers/coplanar_layers.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/check_input.h"
@@ -85,6 +86,22 @@ std::string text_of_colour(const Vec3& v) {
     return v.x == v.y && v.y == v.z ? text_of(v.x) : text_of(v);
 }
 
+/// Returns a line for each of the first lights without extent.
+std::string describe_points(const std::vector<PointInfo>& points) {
+    constexpr std::size_t most = 8;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(points.size(), most); ++k) {
+        const PointInfo& point = points[k];
+        text += info_line(
+            k == 0 ? "without extent" : "",
+            point.name + ": a " + point.kind + ", " + text_of_colour(point.intensity) + " W/sr, " +
+                text_of(point.power.x + point.power.y + point.power.z) + " W in all channels");
+    }
+    if (points.size() > most)
+        text += info_line("", "and " + std::to_string(points.size() - most) + " more");
+    return text;
+}
+
 /// Returns a line for each of the first emitters.
 std::string describe_emitters(const std::vector<EmitterInfo>& emitters) {
     constexpr std::size_t most = 8;
@@ -120,6 +137,16 @@ SceneInfo inspect(const ReadResult& read) {
     info.groups = scene.groups.size();
     info.bounds = bounds_of(scene);
     sum_areas(scene, info);
+    for (const PointEmitter& emitter : point_emitters_of(scene)) {
+        const Vec3 power = power_per_intensity(emitter) * emitter.intensity;
+        info.points.push_back({emitter.name,
+                               emitter.table       ? "measured lamp"
+                               : emitter.is_spot() ? "spot"
+                                                   : "point",
+                               relative_intensity(emitter, emitter.axis) * emitter.intensity,
+                               power});
+        info.emitted_power += power;
+    }
     const EdgeCounts edges = count_edges(scene);
     info.open_edges = edges.open;
     info.nonmanifold_edges = edges.nonmanifold;
@@ -166,6 +193,7 @@ std::string describe(const SceneInfo& info) {
     text += info_line("total area", text_of(info.total_area));
     text += info_line("emitted power", text_of(info.emitted_power) + " (red, green, blue)");
     text += describe_emitters(info.emitters);
+    text += describe_points(info.points);
     add_doubt(text, "without area", info.degenerate_faces, "face", "left out");
     add_doubt(text, "not planar", info.nonplanar_faces, "face", "divided into triangles");
     add_doubt(text, "concave", info.concave_faces, "face", "divided into triangles");

@@ -20,13 +20,21 @@ struct EmitterInfo {
     bool both_sides = false; ///< some of its faces shine to both sides
 };
 
+/// A light without extent.
+struct PointInfo {
+    std::string name;
+    std::string kind; ///< point, spot or measured lamp
+    Vec3 intensity;   ///< on its axis [W/sr]
+    Vec3 power;       ///< [W]
+};
+
 struct SceneInfo {
     std::size_t faces = 0;                            ///< faces in the file
     std::size_t facets = 0, triangles = 0, quads = 0; ///< made of them
     std::size_t vertices = 0, materials = 0, groups = 0;
     Box bounds;              ///< box of the facets [m]
     double total_area = 0;   ///< area of the front sides [m2]
-    Vec3 emitted_power{0.0}; ///< sum of E A [W per channel]
+    Vec3 emitted_power{0.0}; ///< sum of E A, and that of lights without extent [W per channel]
 
     /// Edges of exactly one facet, and those of three or more, vertices at equal positions being
     /// one. A closed scene has no open edges, unless vertices lie on edges of other facets.
@@ -36,6 +44,7 @@ struct SceneInfo {
     std::size_t degenerate_faces = 0, nonplanar_faces = 0, concave_faces = 0;
 
     std::vector<EmitterInfo> emitters;
+    std::vector<PointInfo> points;
     std::vector<std::string> bad_reflectances;
 };
 

@@ -5,6 +5,9 @@
 #include "support/catch.h"
 
 #include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
 
 using Catch::Contains;
 using hemilux::PatchTable;
@@ -121,6 +124,59 @@ TEST_CASE("A lamp emits its watts, and lights what is below as a disc does") {
     CHECK(below == Approx(1).epsilon(.01));
 }
 
+TEST_CASE("A point and a spot bring what their intensity says, and their power is emitted") {
+    const Workplace place;
+    write_ground(place);
+    place.write("at.csv", "x,y,z,nx,ny,nz\n0,0,0,0,1,0\n0.6,0,0,0,1,0\n");
+    const auto irradiance_at = [&](const std::string& options) {
+        const auto run = place.hemilux("solve ground.obj --points at.csv -o p.csv --stats s.json "
+                                       "--light '" +
+                                       options + "'");
+        CAPTURE(options, run.err);
+        REQUIRE(run.code == 0);
+        CHECK_THAT(run.err, Contains("W emitted"));
+        std::istringstream rows(place.read("p.csv"));
+        std::vector<double> found;
+        std::string row;
+        std::getline(rows, row);
+        while (std::getline(rows, row)) {
+            for (int column = 0; column < 7; ++column)
+                row.erase(0, row.find(',') + 1);
+            found.push_back(std::stod(row));
+        }
+        return found;
+    };
+    const double slant = 2 / std::pow(4 + .36, 1.5); // cos / r^2 at the second point
+    const auto point = irradiance_at("point at 0,2,0 intensity 8");
+    CHECK(point[0] == Approx(2).epsilon(1e-6));
+    CHECK(point[1] == Approx(8 * slant).epsilon(1e-6));
+    CHECK(irradiance_at("point watts 100.53096491487338 at 0,2,0")[0] == Approx(2).epsilon(1e-6));
+    const auto spot = irradiance_at("spot at 0,2,0 towards 0,-3,0 inner 10 outer 20 intensity 8");
+    CHECK(spot[0] == Approx(2).epsilon(1e-6));
+    const double pi = std::acos(-1.0), inner = std::cos(pi / 18), outer = std::cos(pi / 9);
+    const double share = (2 / std::sqrt(4.36) - outer) / (inner - outer);
+    CHECK(spot[1] == Approx(8 * slant * share * share).epsilon(1e-6));
+    CHECK(irradiance_at("spot at 0,2,0 towards 0,-3,0 inner 5 outer 15 intensity 8")[1] == 0);
+    CHECK_THAT(place.hemilux("info ground.obj --light 'spot at 0,2,0 towards 0,-1,0 watts 9'").out,
+               Contains("light 1: a spot") && Contains("27 W in all channels"));
+}
+
+TEST_CASE("All methods take lights without extent, and what they cannot light is said") {
+    const Workplace place;
+    write_ground(place);
+    const std::string light = "--light 'point at 0,2,0 intensity 8' --divide none ";
+    const double truth = ground_light(place, light);
+    for (const std::string method : {"matrix", "progressive", "hemisphere", "monte-carlo"}) {
+        CAPTURE(method);
+        CHECK(ground_light(place, light + "--method " + method) == Approx(truth).epsilon(.01));
+    }
+    CHECK(ground_light(place, light + "--plain") == Approx(truth).epsilon(.01));
+    const auto behind =
+        place.hemilux("solve ground.obj --sides front -o t.csv --light 'point at 0,-2,0 watts 1'");
+    CHECK(behind.code == 0);
+    CHECK_THAT(behind.err, Contains("nothing is lit"));
+}
+
 TEST_CASE("A scene without light names what may be a lamp, and ways to light it") {
     const Workplace place;
     write_ground(place);
@@ -145,7 +201,20 @@ TEST_CASE("Lights that cannot be understood are refused with the form that can")
           "--light 'disc at 0,2,0 towards 0,-1,0 radius 1 watts'",
           "--light 'rectangle at 0,2,0 towards 0,-1,0 size 1 watts 60'",
           "--light 'rectangle at 0,2,0 towards 0,-1,0 size 1x0 watts 60'",
-          "--light 'lamp at 0,2,0'", "--sun 0,0,0,5", "--sun 0,-1,0", "--sun 0,-1,0,-5", "--sky -1",
+          "--light 'lamp at 0,2,0'",
+          "--light 'point at 0,2,0'",
+          "--light 'point at 0,2,0 watts 1 intensity 1'",
+          "--light 'point at 0,2,0 emission 1'",
+          "--light 'point at 0,2,0 towards 0,1,0 watts 1'",
+          "--light 'disc at 0,2,0 towards 0,-1,0 radius 1 intensity 1'",
+          "--light 'spot at 0,2,0 watts 1'",
+          "--light 'spot at 0,2,0 towards 0,-1,0 inner 30 outer 20 watts 1'",
+          "--light 'spot at 0,2,0 towards 0,-1,0 outer 91 watts 1'",
+          "--light 'spot at 0,2,0 towards 0,-1,0 radius 1 watts 1'",
+          "--sun 0,0,0,5",
+          "--sun 0,-1,0",
+          "--sun 0,-1,0,-5",
+          "--sky -1",
           "--sky blue"}) {
         CAPTURE(options);
         const auto run = place.hemilux("solve ground.obj -o table.csv " + std::string(options));

@@ -4,6 +4,7 @@
 
 #include "geometry/polygon.h"
 #include "io/gltf/gltf_text.h"
+#include "radiosity/engine/rays/point_emitter.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 
@@ -170,29 +171,30 @@ TEST_CASE("buffers lie in the file, beside it, or in the binary chunk", "[gltf]"
     CHECK(area_vector(read(glb, "s.glb").scene) == Vec3(0, 0, 1));
 }
 
-TEST_CASE("lights without extent have surfaces of the same flux", "[gltf]") {
-    const auto flux = [](const std::string& light) {
+TEST_CASE("point and spot lights are lights without extent", "[gltf]") {
+    const auto light_of = [](const std::string& light) {
         const ReadResult result = read(file_of(
             {0, 1, 2}, R"(,"indices":1)",
             R"("nodes":[{"mesh":0},{"name":"l","translation":[0,0,3],"extensions":)"
             R"({"KHR_lights_punctual":{"light":0}}}],"extensions":{"KHR_lights_punctual":{"lights":[)" +
                 light + "]}}"));
-        CHECK(result.warnings.size() == 1);
-        Vec3 power(0.0);
-        for (const Facet& facet : result.scene.facets)
-            power += polygon_of(result.scene.vertices, facet.vertex).area() *
-                     result.scene.materials[facet.material].emission;
-        CHECK(result.scene.groups.back() == "l");
-        return power;
+        CHECK(result.warnings.empty());
+        CHECK(result.scene.faces == 1);
+        REQUIRE(point_emitters_of(result.scene).size() == 1);
+        const PointEmitter found = point_emitters_of(result.scene)[0];
+        CHECK(found.name == "l");
+        CHECK(found.position == Vec3(0, 0, 3));
+        CHECK(found.axis == Vec3(0, 0, -1));
+        return found;
     };
-    const double pi = std::numbers::pi;
-    CHECK(flux(R"({"type":"point","intensity":2,"color":[1,0.5,0]})").x == Approx(8 * pi));
-    CHECK(flux(R"({"type":"point","intensity":2,"color":[1,0.5,0]})").y == Approx(4 * pi));
-    // A hemisphere of even intensity, and one that falls off from the axis on.
-    CHECK(flux(R"({"type":"spot","spot":{"innerConeAngle":1.5707963,"outerConeAngle":1.5707963}})")
-              .x == Approx(2 * pi));
-    CHECK(flux(R"({"type":"spot","spot":{"innerConeAngle":0,"outerConeAngle":1.5707963}})").x ==
-          Approx(2 * pi / 3));
+    const PointEmitter point = light_of(R"({"type":"point","intensity":2,"color":[1,0.5,0]})");
+    CHECK(point.intensity == Vec3(2, 1, 0));
+    CHECK(relative_intensity(point, {0, 0, 1}) == 1);
+    const PointEmitter spot = light_of(
+        R"({"type":"spot","intensity":3,"spot":{"innerConeAngle":0.5,"outerConeAngle":1}})");
+    CHECK(spot.intensity == Vec3(3));
+    CHECK(spot.cos_inner == Approx(std::cos(.5)));
+    CHECK(spot.cos_outer == Approx(std::cos(1)));
 }
 
 TEST_CASE("a directional light gives its illuminance", "[gltf]") {

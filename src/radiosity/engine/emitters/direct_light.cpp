@@ -41,19 +41,21 @@ DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& ne
     : mesh_(mesh), tracer_(tracer), needs_(needs), own_(ranks, mesh.patches().size()),
       emitters_(mesh, emitters), seeds_(std::move(seeds)),
       sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)), samples_(mesh.patches().size()),
-      hits_(mesh.patches().size()), unblocked_(mesh.patches().size()) {}
+      hits_(mesh.patches().size()), unblocked_(mesh.patches().size()),
+      of_points_(mesh, tracer, seeds_, ranks) {}
 
-Vec3 DirectLight::irradiance(std::uint32_t patch) const {
+Vec3 DirectLight::of_surfaces(std::uint32_t patch) const {
     Vec3 sum(0.0);
     for (std::size_t s = 0; s < seeds_.size(); ++s)
-        sum += irradiance(patch, s);
+        sum += of_surfaces(patch, s);
     return sum / static_cast<double>(seeds_.size());
 }
 
 std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
                                         const Workers& workers, Monitor& monitor) {
+    const std::uint64_t to_points = of_points_.sample_up_to(samples, workers, monitor);
     if (emitters_.empty())
-        return 0;
+        return to_points;
     std::atomic<std::uint64_t> traced{0};
     std::optional<OnThisRank> on_this_rank(monitor.interrupted);
     workers.for_chunks_with(
@@ -73,7 +75,7 @@ std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
     own_.gather(samples_);
     own_.gather(hits_);
     own_.gather(unblocked_);
-    return own_.ranks().sum(traced);
+    return to_points + own_.ranks().sum(traced);
 }
 
 void DirectLight::sample(std::uint32_t patch, std::uint32_t end, RayBatch& batch) {
@@ -128,6 +130,7 @@ void DirectLight::save(StateWriter& state) const {
     state.add(std::span<const std::uint32_t>(samples_));
     state.add(std::span<const std::uint32_t>(hits_));
     state.add(std::span<const double>(unblocked_));
+    of_points_.save(state);
 }
 
 void DirectLight::load(StateReader& state) {
@@ -148,6 +151,7 @@ void DirectLight::load(StateReader& state) {
     state.get(std::span(unblocked_), bounds::non_negative);
     for (std::size_t i = 0; i < unblocked_.size(); ++i)
         check_mean(unblocked_[i], double(samples_[i]) * double(seeds_.size()));
+    of_points_.load(state);
 }
 
 } // namespace hemilux

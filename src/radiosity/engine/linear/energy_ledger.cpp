@@ -53,6 +53,9 @@ struct EnergySums {
     Sum absorbed;
 
     EnergySums(const Transport& t, std::span<const Vec3> incident) {
+        emitted.sent += t.sent_by_points;
+        emitted.escaped += t.escaped_of_points;
+        emitted.left_behind += t.left_behind_of_points;
         for (std::size_t i = 0; i < incident.size(); ++i) {
             const Vec3 emission = t.area[i] * t.emission[i], here = t.area[i] * incident[i];
             if (emission != Vec3(0.0))

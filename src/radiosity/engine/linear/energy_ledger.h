@@ -25,6 +25,9 @@ struct Transport {
     std::span<const EscapeFraction> lost;
     std::span<const double> rays; ///< rays that the escape fraction was found with; 0: none
     bool closed = false;          ///< no ray can be lost, as the geometry proves
+    /// The power that lights without extent send, and what of it leaves the scene or falls on backs
+    /// of faces [power].
+    Vec3 sent_by_points{0.0}, escaped_of_points{0.0}, left_behind_of_points{0.0};
 };
 
 /// Scales `direct` [W/m2 arriving], which comes straight from emitters. Its sum over all patches is

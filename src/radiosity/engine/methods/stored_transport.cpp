@@ -59,8 +59,9 @@ class StoredTransportSolver final : public Solver {
   public:
     explicit StoredTransportSolver(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
-          rays_(input), system_(input.mesh, rays_.emitters(), input.needs.closed),
-          aim_(input.mesh, input.target), plan_(first_plan(input, !rays_.emitters().empty())),
+          rays_(input), system_(input.mesh, rays_.emitters(), input.needs.closed,
+                                power_of_points(input.mesh, input.tracer)),
+          aim_(input.mesh, input.target), plan_(first_plan(input, rays_.has_shadow_rays())),
           light_(input.mesh.patches().size()) {
         solution_.standard_error.assign(input.mesh.patches().size(), Vec3(0.0)); // can be saved
         plan_.aim(aim_.importance());
@@ -109,9 +110,9 @@ class StoredTransportSolver final : public Solver {
     }
 
   private:
-    static RayPlan first_plan(const SolverInput& input, bool small_emitters) {
-        const double each = input.options.rays / (small_emitters ? 2 * batches : batches);
-        return {input.mesh, input.needs, each, small_emitters ? each : 0,
+    static RayPlan first_plan(const SolverInput& input, bool shadow_rays) {
+        const double each = input.options.rays / (shadow_rays ? 2 * batches : batches);
+        return {input.mesh, input.needs, each, shadow_rays ? each : 0,
                 RayGoal{!input.options.stop.steps, input.options.stop.error.value_or(0)}};
     }
 
@@ -270,6 +271,7 @@ extern const Method stored_transport_method{
     .default_stop = {.steps = {}, .seconds = {}, .error = .01},
     .make = make_solver_of<StoredTransportSolver>,
     .work = {.pairs = true},
+    .takes_points = true,
     .saves = true,
     .plain = plain::stored_transport,
     .max_plain_patches = plain::max_patches_of_stored_transport,

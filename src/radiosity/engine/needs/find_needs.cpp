@@ -2,6 +2,7 @@
 
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/lit_facets.h"
+#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
@@ -49,6 +50,8 @@ Needs find_needs(const Mesh& mesh) {
         const Material& material = mesh.material(patch);
         return !is_grey(material.reflectance) || !is_grey(material.emission);
     });
+    for (const PointEmitter& emitter : point_emitters_of(mesh.scene()))
+        needs.colours |= !is_grey(emitter.intensity);
     const Enclosure room = convex_enclosure(mesh);
     needs.closed = room == Enclosure::tight;
     needs.visibility = room == Enclosure::not_found;

@@ -1,5 +1,6 @@
 #include "radiosity/engine/needs/lit_facets.h"
 
+#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
@@ -51,8 +52,10 @@ struct Side {
     }
     /// Returns whether some corner of the other side may be in front; NaN counts as in front.
     [[nodiscard]] bool has_in_front(const Side& other) const {
-        return std::ranges::any_of(other.corner,
-                                   [&](const Vec3& p) { return !(height(p) <= threshold); });
+        return std::ranges::any_of(other.corner, [&](const Vec3& p) { return is_in_front(p); });
+    }
+    [[nodiscard]] bool is_in_front(const Vec3& point) const {
+        return !(height(point) <= threshold);
     }
 
   private:
@@ -77,6 +80,7 @@ class Spread {
         for (std::uint32_t s = 0; s < sides_.size(); ++s)
             if (glm::any(glm::greaterThan(material(s).emission, Vec3(0.0))))
                 shining_.push_back(s);
+        light_by_points();
         std::vector<bool> shone(sides_.size());
         while (!shining_.empty()) {
             for (const std::uint32_t s : shining_)
@@ -102,6 +106,19 @@ class Spread {
     [[nodiscard]] const Material& material(std::uint32_t side) const {
         const Scene& scene = mesh_.scene();
         return scene.materials[scene.facets[two_sided_ ? side / 2 : side].material];
+    }
+
+    /// Lights the sides in front of which a light without extent stands. Those that reflect begin
+    /// to shine.
+    void light_by_points() {
+        for (const PointEmitter& emitter : point_emitters_of(mesh_.scene()))
+            for (std::uint32_t s = 0; s < sides_.size(); ++s) {
+                if (lit_[s] || !sides_[s].is_in_front(mesh_.frame().to_local(emitter.position)))
+                    continue;
+                lit_[s] = true;
+                if (material(s).emission == Vec3(0.0) && material(s).reflectance != Vec3(0.0))
+                    shining_.push_back(s);
+            }
     }
 
     /// Returns whether one of the sides that have just begun to shine shines at this one. Tests the

@@ -53,7 +53,8 @@ struct Method {
     std::unique_ptr<Solver> (*make)(const SolverInput&);
     MakeStrategy strategy = nullptr; ///< what it shoots with; nullptr if it is no shooting method
     MethodWork work = {};            ///< what it does that a scene may not need
-    bool saves = false;              ///< save and load are there; all shooting methods have them
+    bool takes_points = false; ///< it traces shadow rays to lights without extent (lit_by_points.h)
+    bool saves = false;        ///< save and load are there; all shooting methods have them
     /// Makes the same on one page, slow and obviously right (plain/plain.h); nullptr where there is
     /// none.
     std::unique_ptr<Solver> (*plain)(const SolverInput&) = nullptr;

@@ -25,6 +25,10 @@ class StoredRays {
 
     /// Returns the patches whose light comes by shadow rays.
     [[nodiscard]] std::span<const std::uint32_t> emitters() const { return emitters_; }
+    /// Returns whether shadow rays bring any light.
+    [[nodiscard]] bool has_shadow_rays() const {
+        return !emitters_.empty() || !direct_->of_points().empty();
+    }
     [[nodiscard]] std::span<const RayCounts> counts() const { return counts_; }
     [[nodiscard]] const DirectLight& direct() const { return *direct_; }
 

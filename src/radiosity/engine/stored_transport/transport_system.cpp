@@ -31,11 +31,22 @@ Vec3 sample_variance(std::span<const Vec3> values) {
     return squares / (n - 1);
 }
 
+/// Returns the light straight from lights without extent, of one batch or of all; nothing where
+/// there are none.
+std::vector<Vec3> light_of_points(const DirectLight& shadow_rays, std::optional<std::size_t> batch,
+                                  std::size_t patches) {
+    std::vector<Vec3> light;
+    const LightOfPoints& points = shadow_rays.of_points();
+    for (std::uint32_t i = 0; i < patches && !points.empty(); ++i)
+        light.push_back(batch ? points.irradiance(i, *batch) : points.irradiance(i));
+    return light;
+}
+
 } // namespace
 
 TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> emitters,
-                                 bool closed)
-    : surfaces_(mesh), sampled_emission_(surfaces_.emission), closed_(closed) {
+                                 bool closed, const PowerOfPoints& points)
+    : surfaces_(mesh), sampled_emission_(surfaces_.emission), closed_(closed), points_(points) {
     for (const Vec3& reflectance : surfaces_.reflectance)
         for (int c = 0; c < 3; ++c)
             lost_at_least_ = std::min(lost_at_least_, 1 - reflectance[c]);
@@ -64,14 +75,16 @@ TransportSystem::Solved TransportSystem::solve(const StoredRays& rays, double er
     const double residual = std::max(known * lost_at_least_, min_residual);
     std::vector<double> left(batches + 1); // residuals that are too large
     for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
-        left[batch] = solve(parts[batch], std::move(direct[batch]), variance, light[batch], own,
+        left[batch] = solve(parts[batch], std::move(direct[batch]), variance,
+                            light_of_points(rays.direct(), batch, area().size()), light[batch], own,
                             residual, interrupted);
     });
     ExchangeMatrix all(std::move(parts), workers);
     const double tolerance = left_of_all * average(light) * lost_at_least_;
-    left[batches] = solve(all, straight_light(all, rays.direct(), std::nullopt, workers),
-                          variance / double(batches), light[batches], workers,
-                          std::max(tolerance, min_residual), interrupted);
+    left[batches] =
+        solve(all, straight_light(all, rays.direct(), std::nullopt, workers),
+              variance / double(batches), light_of_points(rays.direct(), {}, area().size()),
+              light[batches], workers, std::max(tolerance, min_residual), interrupted);
     const double max_left = *std::ranges::max_element(left);
     const double unsolved = max_left > 0 ? unsolved_error(max_left, lost_at_least_) : 0;
     return {std::move(all), unsolved};
@@ -79,15 +92,18 @@ TransportSystem::Solved TransportSystem::solve(const StoredRays& rays, double er
 
 Transport TransportSystem::transport(const ExchangeMatrix& factors) const {
     return {surfaces_.area, surfaces_.emission, surfaces_.reflectance,
-            factors.lost(), factors.rays(),     closed_};
+            factors.lost(), factors.rays(),     closed_,
+            points_.sent,   points_.escaped,    points_.left_behind};
 }
 
 /// Solves for what arrives at each patch in the end, from what `light` holds on.
 double TransportSystem::solve(const ExchangeMatrix& factors, std::vector<Vec3> direct,
-                              const Vec3& variance, BatchLight::Light& light,
-                              const Workers& workers, double residual,
+                              const Vec3& variance, std::span<const Vec3> of_points,
+                              BatchLight::Light& light, const Workers& workers, double residual,
                               const StopFlag& interrupted) const {
     scale_direct_light(transport(factors), variance, direct);
+    for (std::size_t i = 0; i < of_points.size(); ++i)
+        direct[i] += of_points[i];
     const GradientsResult result =
         solve_by_gradients(factors, surfaces_.area, surfaces_.reflectance, direct, light.incident,
                            workers, residual, &interrupted);
@@ -115,9 +131,9 @@ double TransportSystem::average(std::vector<BatchLight::Light>& light) const {
     return squares > 0 ? std::sqrt(squares / size) : 0;
 }
 
-/// Returns the light straight from the emitters. It comes by shadow rays, of one batch or of all,
-/// and by random rays from the emitters that shadow rays do not reach. A patch without shadow rays
-/// has all from the latter: it is black, or they are better there.
+/// Returns the light straight from the emitting surfaces. It comes by shadow rays, of one batch or
+/// of all, and by random rays from the emitters that shadow rays do not reach. A patch without
+/// shadow rays has all from the latter: it is black, or they are better there.
 std::vector<Vec3> TransportSystem::straight_light(const ExchangeMatrix& factors,
                                                   const DirectLight& shadow_rays,
                                                   std::optional<std::size_t> batch,
@@ -133,12 +149,12 @@ std::vector<Vec3> TransportSystem::straight_light(const ExchangeMatrix& factors,
         some[i] = factors.scaled(i, sampled_emission_[i]);
     factors.for_products(workers, [&](std::size_t begin, std::size_t end) {
         for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
-            if (shadow_rays.samples(i) == 0) // an emitter does not light itself
+            if (shadow_rays.leaves_surfaces(i)) // an emitter does not light itself
                 light[i] = factors.row_times(i, all) -
                            factors.self_factor(i) * (surfaces_.emission[i] - sampled_emission_[i]);
             else if (any)
                 light[i] = factors.row_times(i, some);
-            light[i] += batch ? shadow_rays.irradiance(i, *batch) : shadow_rays.irradiance(i);
+            light[i] += batch ? shadow_rays.of_surfaces(i, *batch) : shadow_rays.of_surfaces(i);
         }
     });
     factors.own_rows().gather(light);

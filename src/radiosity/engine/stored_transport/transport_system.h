@@ -4,6 +4,7 @@
 // is the error, and once for all together.
 
 #include "parallel/workers.h"
+#include "radiosity/engine/emitters/point_emitters.h"
 #include "radiosity/engine/form_factors/exchange_matrix.h"
 #include "radiosity/engine/linear/energy_ledger.h"
 #include "radiosity/engine/linear/surfaces.h"
@@ -37,8 +38,9 @@ class TransportSystem {
   public:
     /// Prepares the system. The light of `emitters` comes by shadow rays, not by random rays.
     /// `closed` says that no ray can leave the scene or meet the back of a face, as its geometry
-    /// proves.
-    TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> emitters, bool closed);
+    /// proves. `points` is the power of lights without extent.
+    TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> emitters, bool closed,
+                    const PowerOfPoints& points = {});
 
     /// Returns, by patch, areas in local units, reflectances [-], emissions [W/m2].
     [[nodiscard]] std::span<const double> area() const { return surfaces_.area; }
@@ -64,12 +66,13 @@ class TransportSystem {
                                const StopFlag& interrupted) const;
 
   private:
-    /// Solves for one batch or for all. `direct` is the light that comes straight from the
-    /// emitters, and `variance` that of its power, by channel. Returns the relative residual where
-    /// it is larger than `residual`, else 0.
+    /// Solves for one batch or for all. `direct` is the light that comes straight from emitting
+    /// surfaces, and `variance` that of its power, by channel; `of_points` comes from lights
+    /// without extent, if there are any. Returns the relative residual where it is larger than
+    /// `residual`, else 0.
     [[nodiscard]] double solve(const ExchangeMatrix& factors, std::vector<Vec3> direct,
-                               const Vec3& variance, BatchLight::Light& light,
-                               const Workers& workers, double residual,
+                               const Vec3& variance, std::span<const Vec3> of_points,
+                               BatchLight::Light& light, const Workers& workers, double residual,
                                const StopFlag& interrupted) const;
     [[nodiscard]] Transport transport(const ExchangeMatrix& factors) const;
     double average(std::vector<BatchLight::Light>& light) const;
@@ -81,6 +84,7 @@ class TransportSystem {
     std::vector<Vec3> sampled_emission_; ///< [W/m2]
     double lost_at_least_ = 1;           ///< share of what falls on a patch, in any channel
     bool closed_;
+    PowerOfPoints points_;
 };
 
 } // namespace hemilux

@@ -59,6 +59,8 @@ void Walks::trace(std::uint32_t begin, std::uint32_t end, Work& work,
         Rng rng(vertex.seed);
         if (by_shadow_ray)
             emitters_.add_ray(at, work.weighed, rng, Vec3(1.0), v, work.shadow);
+        if (!points_.empty())
+            points_.add_rays(at, 1, rng.uniform(), Vec3(1.0), v, work.shadow);
         const Frame frame = Frame::from_normal(at.normal);
         work.rays.push_back(at.ray(frame.to_world(cosine_direction(vertex.direction))));
         work.sees_emission.push_back(!by_shadow_ray);

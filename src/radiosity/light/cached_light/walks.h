@@ -2,14 +2,15 @@
 // Walks from points of surfaces, which find what the light that gathers read lacks.
 //
 // A gather from x reads the light h of each point y that its rays meet. A walk goes on from y as a
-// path: at each of its vertices one ray goes to an emitter and one at random, which reads h where
-// it lands and goes on with the chance s, the largest reflectance there,
+// path: at each of its vertices one ray goes to an emitter (of each kind) and one at random, which
+// reads h where it lands and goes on with the chance s, the largest reflectance there,
 //     i(y) = D(y) + e(z) + rho(z) (h(z) + xi / s (i(z) - h(z))),
 // where i and h are irradiances and e is the emission that no ray to an emitter finds. So i(y) -
 // h(y) is an unbiased sample of what is missing at y, whatever h is. The better h, the smaller its
 // noise.
 
 #include "bvh/tracer.h"
+#include "radiosity/engine/emitters/point_emitters.h"
 #include "radiosity/engine/emitters/reached_emitters.h"
 #include "radiosity/engine/rays/surface_point.h"
 #include "radiosity/light/cached_light/irradiance_cells.h"
@@ -43,7 +44,7 @@ class Walks {
   public:
     /// All that is referred to must outlive this object.
     Walks(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light)
-        : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh) {}
+        : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh), points_(mesh) {}
 
     /// Takes a walk from each start; adds a sample of the residual for each place where one
     /// landed. Returns the number of rays.
@@ -69,6 +70,7 @@ class Walks {
     const Tracer& tracer_;
     const SurfaceLight& light_;
     ReachedEmitters emitters_;
+    PointEmitters points_;
 };
 
 } // namespace hemilux

@@ -73,6 +73,10 @@ void FinalGather::add_rays(const SurfacePoint& point, std::uint64_t seed, std::s
         }
         if (by_shadow_rays && !only_reflected_)
             emitters.add_rays(point, rays.weighed, numbers, 0, shadow_rays, place, rays.shadow);
+        if (!paths_.points().empty() && !only_reflected_)
+            paths_.points().add_rays(point, PointEmitters::max_rays_of_point,
+                                     Rng(hash_words({seed, e, 1})).uniform(), Vec3(1.0), place,
+                                     rays.shadow);
     }
 }
 

@@ -3,7 +3,8 @@
 //
 // A patch holds one value for its whole area; a point sees more: the edge of a shadow, the light of
 // an emitter that is near. So the light straight from small emitters is found by shadow rays with
-// their exact factor (reached_emitters.h). All other light is found by cosine-distributed rays that
+// their exact factor (reached_emitters.h), and that of lights without extent by a ray to each
+// (point_emitters.h). All other light is found by cosine-distributed rays that
 // read the solution where they strike (final gather: Reichert 1992; Lischinski, Tampieri and
 // Greenberg 1993, "local pass"), or go on where it is too near (gather_paths.h).
 

@@ -67,6 +67,28 @@ std::vector<EmitterLight> GatherInParts::direct(std::span<const SurfacePoint> po
     return found;
 }
 
+std::vector<Vec3> GatherInParts::from_points(std::span<const SurfacePoint> points,
+                                             std::span<const GatherSamples> samples) const {
+    std::vector<Vec3> found(points.size(), Vec3(0.0));
+    const PointEmitters& emitters = paths_.points();
+    if (only_reflected_ || emitters.empty())
+        return found;
+    ShadowRays<LightAtPlace> rays;
+    const auto add = [&](const LightAtPlace& sample, bool arrives) {
+        if (arrives)
+            found[sample.place] += sample.light;
+    };
+    for (std::uint32_t k = 0; k < points.size(); ++k) {
+        emitters.add_rays(points[k], PointEmitters::max_rays_of_point,
+                          Rng(hash_words({samples[k].seed, samples[k].first})).uniform(), Vec3(1.0),
+                          k, rays);
+        if (rays.size() >= rays_traced_together)
+            rays.trace(tracer_, add);
+    }
+    rays.trace(tracer_, add);
+    return found;
+}
+
 /// Adds what each ray meets; what is near goes on as a path. A ray that was aimed counts only where
 /// it meets its patch. Then, and where a random ray meets the same patch, it counts by the
 /// densities of both (balance heuristic: Veach and Guibas 1995).

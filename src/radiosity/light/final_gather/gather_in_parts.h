@@ -1,7 +1,8 @@
 #pragma once
-// The light that arrives at points in two parts, for pictures, which filter them differently. One
-// comes straight from small emitters, with the sharp edges of shadows; the other is all other
-// light, which varies slowly.
+// The light that arrives at points in three parts, for pictures, which filter them differently. One
+// comes straight from small emitters, with the sharp edges of shadows; one from lights without
+// extent, which has no noise and is not filtered; the other is all other light, which varies
+// slowly.
 
 #include "bvh/tracer.h"
 #include "radiosity/engine/emitters/reached_emitters.h"
@@ -57,9 +58,12 @@ class GatherInParts {
     [[nodiscard]] std::vector<EmitterLight> direct(std::span<const SurfacePoint> points,
                                                    std::span<const GatherSamples> samples,
                                                    Shadows shadows) const;
-    /// Returns the other light in the same way, by a cosine-distributed ray for each sample. It
-    /// reads the light that it meets, or goes on where that is too near. Half of the samples may be
-    /// rays to bright patches instead (bright_patches.h).
+    /// Returns the light of lights without extent at each point [W/m2], by shadow rays.
+    [[nodiscard]] std::vector<Vec3> from_points(std::span<const SurfacePoint> points,
+                                                std::span<const GatherSamples> samples) const;
+    /// Returns the other light in the same way as direct(), by a cosine-distributed ray for each
+    /// sample. It reads the light that it meets, or goes on where that is too near. Half of the
+    /// samples may be rays to bright patches instead (bright_patches.h).
     [[nodiscard]] std::vector<IndirectLight> indirect(std::span<const SurfacePoint> points,
                                                       std::span<const GatherSamples> samples) const;
 

@@ -73,7 +73,8 @@ bool GatherPaths::end_ray(const PathRays::State& ray, const Met& met, unsigned b
     return near;
 }
 
-/// Adds one random ray of a path that goes on, and one to an emitter where such are taken.
+/// Adds one random ray of a path that goes on, and one to an emitter of each kind where such are
+/// taken.
 void GatherPaths::go_on(const PathRays::State& from, const Met& met, PathRays& next) const {
     const Patch& on = mesh_.patches()[met.patch];
     PathRays::State state = from;
@@ -93,6 +94,8 @@ void GatherPaths::add_rays(const SurfacePoint& at, const PathRays::State& state,
     next.add(further, then);
     if (by_shadow_ray)
         emitters_.add_ray(at, next.weighed, rng, state.share, state.place, next.shadow);
+    if (!points_.empty())
+        points_.add_rays(at, 1, rng.uniform(), state.share, state.place, next.shadow);
 }
 
 } // namespace hemilux

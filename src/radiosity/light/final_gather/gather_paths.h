@@ -4,6 +4,7 @@
 // ray then goes on as a path (Christensen 1999): it gathers the light that is reflected there too.
 
 #include "bvh/tracer.h"
+#include "radiosity/engine/emitters/point_emitters.h"
 #include "radiosity/engine/emitters/reached_emitters.h"
 #include "radiosity/light/cached_light/surface_light.h"
 #include "radiosity/light/final_gather/surface_points.h"
@@ -42,9 +43,11 @@ class GatherPaths {
   public:
     /// `light` is what surfaces send. All that is referred to must outlive this object.
     GatherPaths(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light)
-        : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh) {}
+        : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh), points_(mesh) {}
 
     [[nodiscard]] const ReachedEmitters& emitters() const { return emitters_; }
+    /// Returns the lights without extent.
+    [[nodiscard]] const PointEmitters& points() const { return points_; }
 
     /// Adds rays for the light that arrives at a point, where a path begins; `state.share` of it
     /// counts.
@@ -80,6 +83,7 @@ class GatherPaths {
     const Tracer& tracer_;
     SurfaceLight light_;
     ReachedEmitters emitters_;
+    PointEmitters points_;
 };
 
 } // namespace hemilux

@@ -1,6 +1,7 @@
 #include "radiosity/light/sides/light_paths.h"
 
 #include "geometry/frame.h"
+#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/paper/rays/shot.h"
 
 #include <algorithm>
@@ -47,11 +48,39 @@ void for_each_path(const std::vector<double>& weights, std::uint32_t count, cons
             emit(f, k);
 }
 
+/// Returns the power of each facet, then that of each light without extent.
 std::vector<double> powers_of(const Mesh& mesh) {
     std::vector<double> power(mesh.scene().facets.size());
     for (std::uint32_t f = 0; f < power.size(); ++f)
         power[f] = power_of(mesh, f);
+    const double scale = mesh.frame().scale;
+    for (const PointEmitter& emitter : point_emitters_of(mesh.scene())) {
+        const Vec3& i = emitter.intensity;
+        const double sum = power_per_intensity(emitter) * scale * scale * (i.r + i.g + i.b);
+        power.push_back(std::isfinite(sum) ? sum : 0);
+    }
     return power;
+}
+
+/// Returns the light without extent of this number among the powers; nullptr for a facet.
+const PointEmitter* point_emitter_at(const Mesh& mesh, std::uint32_t number) {
+    const std::size_t facets = mesh.scene().facets.size();
+    return number < facets ? nullptr : &point_emitters_of(mesh.scene())[number - facets];
+}
+
+/// Returns a ray from a light without extent, by its intensity.
+Ray ray_from(const Mesh& mesh, const PointEmitter& emitter, Rng& rng) {
+    constexpr int max_tries = 1000;
+    Vec3 direction = emitter.axis;
+    for (int i = 0; i < max_tries; ++i) {
+        direction = random_direction(emitter, {rng.uniform(), rng.uniform()});
+        if (rng.uniform() * max_relative_intensity(emitter) <
+            relative_intensity(emitter, direction))
+            break;
+    }
+    return {.origin = mesh.frame().to_local(emitter.position),
+            .direction = direction,
+            .t_min = off_the_plane};
 }
 
 } // namespace
@@ -119,6 +148,10 @@ std::vector<SideLight> light_on_sides(const Mesh& mesh, const Tracer& tracer,
     };
     // Every other path starts towards a target.
     const auto emit = [&](std::uint32_t f, std::uint32_t k) {
+        if (const PointEmitter* const emitter = point_emitter_at(mesh, f)) {
+            follow(mesh, tracer, ray_from(mesh, *emitter, rng), rng, arrive);
+            return;
+        }
         const FacetSide side{f, shines_back[f]};
         const std::optional<Ray> aimed = k % 2 == 1 ? targets.ray_from(side, rng) : std::nullopt;
         follow(mesh, tracer, aimed ? *aimed : diffuse_ray(mesh, side, rng), rng, arrive);
@@ -139,9 +172,9 @@ LightShares find_light_shares(const Mesh& mesh, const Tracer& tracer) {
     LightShares sum;
     Rng rng(2);
     for_each_path(powers_of(mesh), paths, [&](std::uint32_t f, std::uint32_t k) {
-        const Vec3& e = material(f).emission;
+        const PointEmitter* const emitter = point_emitter_at(mesh, f);
+        const Vec3& e = emitter ? emitter->intensity : material(f).emission;
         Vec3 weight = e / (e.r + e.g + e.b) / double{paths};
-        const FacetSide source{f, mesh.has_back(f) && k % 2 == 1};
         // The path goes on until the light falls on a back, leaves, or is absorbed by chance.
         const auto arrive = [&](std::optional<FacetSide> side) {
             if (!side || (side->back && !mesh.has_back(side->facet))) {
@@ -154,7 +187,9 @@ LightShares find_light_shares(const Mesh& mesh, const Tracer& tracer) {
             weight *= reflectance / survival;
             return rng.uniform() < survival;
         };
-        follow(mesh, tracer, diffuse_ray(mesh, source, rng), rng, arrive);
+        const Ray first = emitter ? ray_from(mesh, *emitter, rng)
+                                  : diffuse_ray(mesh, {f, mesh.has_back(f) && k % 2 == 1}, rng);
+        follow(mesh, tracer, first, rng, arrive);
     });
     return sum;
 }

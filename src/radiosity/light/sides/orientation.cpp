@@ -2,6 +2,7 @@
 
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/light/sides/emitter_sides.h"
 #include "radiosity/light/textures/scene_textures.h"
@@ -241,7 +242,7 @@ Orientation find_orientation(const Mesh& mesh, const Tracer& tracer) {
         const Vec3& e = material.emission;
         return !material.is_far && e.r + e.g + e.b > 0;
     };
-    if (std::ranges::any_of(mesh.scene().facets, emits))
+    if (std::ranges::any_of(mesh.scene().facets, emits) || !point_emitters_of(mesh.scene()).empty())
         return OrientationSearch(mesh, tracer).find();
     Orientation unknown;
     unknown.clashing_edges = find_shells(mesh.scene()).clashing_edges;

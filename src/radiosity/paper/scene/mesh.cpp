@@ -104,6 +104,11 @@ void Mesh::find_colours() {
             {.name = {}, .reflectance = mean.reflectance, .emission = mean.emission});
 }
 
+void Mesh::vary_colours(std::shared_ptr<VaryingColours> colours) {
+    scene_.varying = std::move(colours);
+    find_colours();
+}
+
 Frame Mesh::hemisphere_frame(std::uint32_t patch) const {
     return hemisphere_frame(patch, hemisphere_turn(patch));
 }

@@ -13,6 +13,7 @@
 #include "radiosity/paper/scene/patch_cells.h"
 #include "radiosity/paper/scene/scene.h"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -90,6 +91,9 @@ class Mesh {
     /// long one. The larger of the levels of a patch's two sides counts. Facets, and tracers of
     /// them, remain valid. Returns for each new patch the old one that it is a piece of.
     std::vector<std::uint32_t> refine(std::span<const std::uint8_t> levels);
+
+    /// Gives the patches other colours.
+    void vary_colours(std::shared_ptr<VaryingColours> colours);
 
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const LocalFrame& frame() const { return facets_.frame; }

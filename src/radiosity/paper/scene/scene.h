@@ -12,6 +12,8 @@
 
 namespace hemilux {
 
+struct PointEmitter; // a light without extent (radiosity/engine/rays)
+
 /// A diffuse surface. Colours have three channels: red, green, blue.
 struct Material {
     std::string name;
@@ -40,6 +42,8 @@ struct Scene {
     /// The colours of materials that vary over their facets, such as textures. The Material has
     /// their means. It is empty where none varies; copies of a scene share it.
     std::shared_ptr<VaryingColours> varying = {};
+    /// Lights without extent; it is empty where there are none. Copies of a scene share them.
+    std::shared_ptr<const std::vector<PointEmitter>> point_emitters = {};
 
     [[nodiscard]] bool colours_vary_on(std::uint32_t material) const {
         return varying && varying->on(material);

@@ -163,6 +163,10 @@ Vec3 MeanOfSteps::purest_ray() const {
         if (emission != Vec3(0.0))
             share = glm::max(share, emission / mean_of_channels(emission));
     }
+    if (input_.mesh.scene().point_emitters) // patches emit what they reflect of those
+        for (const Patch& patch : input_.mesh.patches())
+            if (const Vec3& e = input_.mesh.material(patch).emission; e != Vec3(0.0))
+                share = glm::max(share, e / mean_of_channels(e));
     return mean_of_channels(mean_ray()) * share;
 }
 
