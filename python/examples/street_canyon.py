@@ -54,6 +54,6 @@ ratio = height / width
 print("whole street:", f"{whole.sky[0]:.4f},", f"closed form {np.hypot(1, ratio) - ratio:.4f}")
 
 largest = max(abs(sky[0] - on_street).max(), abs(sky[1] - on_wall).max())
-print(f"largest difference {largest:.1e}, by the ends of the street and the errors of single strips")
+print(f"largest difference {largest:.1e}, by the street's ends and the errors of single strips")
 assert largest < 2e-3
 assert abs(whole.sky[0] - (np.hypot(1, ratio) - ratio)) < 2e-3
