@@ -4,10 +4,12 @@
 #include "io/files/input_file.h"
 #include "io/files/text_words.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace hemilux {
@@ -43,7 +45,9 @@ std::string_view IesReader::next_line() {
     if (rest_.empty())
         fail("expected more of an IES file, found its end");
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    const std::string_view line = rest_.substr(0, end);
+    std::string_view line = rest_.substr(0, end);
+    if (line.ends_with('\r'))
+        line.remove_suffix(1);
     rest_.remove_prefix(std::min(end + 1, rest_.size()));
     ++line_;
     return trimmed(line);

@@ -26,9 +26,12 @@ constexpr std::size_t patches_per_chunk = 8;
 /// Directions uniform in solid angle have lost too many digits below it [sr].
 constexpr double min_solid_angle = 1e-4;
 
-/// Each patch has so many samples in each estimate, also a black one: what it absorbs is a part of
-/// the balance of energy.
-constexpr std::uint32_t min_samples = 4;
+/// Returns the samples of a patch in each estimate. One that is to have none, as it is black, has a
+/// few all the same: what it absorbs is a part of the balance of energy.
+std::uint32_t planned(std::uint32_t samples) {
+    constexpr std::uint32_t of_black = 4;
+    return samples > 0 ? samples : of_black;
+}
 
 /// A light that shines at the front of a patch. `sum` is what all lights up to it would send there.
 struct Shining {
@@ -116,9 +119,9 @@ std::uint64_t LightOfPoints::sample_up_to(std::span<const std::uint32_t> samples
         own_.count(), patches_per_chunk, [] { return Work(); },
         [&](Work& work, std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end && !monitor.interrupted; ++k)
-                if (const std::size_t i = own_.item(k);
-                    std::max(samples[i], min_samples) > samples_[i])
-                    sample(static_cast<std::uint32_t>(i), std::max(samples[i], min_samples), work);
+                if (const auto i = static_cast<std::uint32_t>(own_.item(k));
+                    planned(samples[i]) > samples_[i])
+                    sample(i, planned(samples[i]), work);
             send(work);
             traced += work.traced;
             monitor.rays += std::exchange(work.traced, 0);
@@ -156,8 +159,10 @@ void LightOfPoints::sample(std::uint32_t patch, std::uint32_t end, Work& work) {
     const std::uint32_t begin = std::exchange(samples_[patch], end);
     const Patch& receiver = mesh_.patches()[patch];
     look_from_lights(patch, work);
-    if (work.shining.empty())
+    if (work.shining.empty()) { // no more are planned then
+        samples_[patch] = 0;
         return;
+    }
     const double sum = work.shining.back().sum;
     const PolygonSampler places(receiver.shape);
     for (std::uint32_t s = 0; s < seeds_.size(); ++s) {

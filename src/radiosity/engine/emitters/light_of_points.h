@@ -34,9 +34,10 @@ class LightOfPoints {
                   const Ranks& ranks = one_rank());
 
     [[nodiscard]] bool empty() const { return emitters_.empty(); }
-    /// Goes on until each patch has so many samples in each estimate, and a few at least. Returns
-    /// the number of rays traced by this call, those of all ranks. If the monitor was interrupted
-    /// meanwhile, some patches have fewer samples, and another call takes up the rest.
+    /// Goes on until each patch has so many samples in each estimate, and a few at least; none
+    /// where no light shines. Returns the number of rays traced by this call, those of all ranks.
+    /// If the monitor was interrupted meanwhile, some patches have fewer samples, and another call
+    /// takes up the rest.
     std::uint64_t sample_up_to(std::span<const std::uint32_t> samples, const Workers& workers,
                                Monitor& monitor);
 
