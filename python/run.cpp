@@ -8,6 +8,7 @@
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
 #include "app/terminal/stopwatch.h"
+#include "radiosity/engine/emitters/lit_by_points.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 
@@ -105,7 +106,7 @@ std::unique_ptr<RunResult> run_method(const PythonMesh& mesh, const SolveSetting
                             result->needs};
     const Stopwatch solving;
     try {
-        result->solver = settings.method->make(input);
+        result->solver = make_solver(*settings.method, input);
         run(*result->solver, input, stop, [&](const StepRecord& record, const Solution& solution) {
             result->steps.push_back(record);
             if (!reference.empty())

@@ -3,6 +3,7 @@
 #include "app/memory/memory.h"
 #include "app/running/step_size.h"
 #include "app/terminal/stopwatch.h"
+#include "radiosity/engine/emitters/lit_by_points.h"
 #include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/engine/solving/time_limit.h"
 
@@ -37,11 +38,11 @@ class Runner {
         options_.seed += run;
         options_.literal = options_.literal && variant.method->has_literal;
         const Stopwatch preparing;
-        solver_ = variant.method->make({.mesh = comparison.mesh,
-                                        .tracer = comparison.tracer,
-                                        .options = options_,
-                                        .monitor = comparison.monitor,
-                                        .needs = comparison.needs});
+        solver_ = make_solver(*variant.method, {.mesh = comparison.mesh,
+                                                .tracer = comparison.tracer,
+                                                .options = options_,
+                                                .monitor = comparison.monitor,
+                                                .needs = comparison.needs});
         seconds_ = ranks().of_first(preparing.seconds());
     }
 

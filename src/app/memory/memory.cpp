@@ -2,6 +2,7 @@
 
 #include "app/settings/text.h"
 #include "io/files/input_file.h"
+#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/layers/coplanar_overlaps.h"
 #include "radiosity/light/textures/scene_textures.h"
 
@@ -165,6 +166,10 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
         need.tree += bytes_per_triangle * (facet.is_triangle() ? 1 : 2);
     for (const Method* const method : methods)
         need.method += bytes_of(*method, options, patches);
+    if (!point_emitters_of(scene).empty()) { // a mesh and irradiances of its own for each method
+        constexpr double per_patch = sizeof(Patch) + sizeof(Material) + 8 * sizeof(Vec3);
+        need.method += static_cast<double>(methods.size()) * per_patch * patches;
+    }
     if (before)
         need.method = std::max(need.method, bytes_of(*before, options, patches));
     need.method += bytes_of_ray_batches;
