@@ -50,7 +50,7 @@ far_lamps_two_percent_brighter @@ engine @@ radiosity/engine/form_factors/pair_f
 hemicube_side_as_top @@ engine @@ radiosity/engine/form_factors/hemicube.cpp @@ side_[row * half + from_middle(column)] @@ top_[row * half + from_middle(column)]
 hemicube_mirrored @@ engine @@ radiosity/engine/form_factors/hemicube.cpp @@ return {-u, 1, v}; @@ return {u, 1, v};
 loss_is_not_allowed_for @@ engine @@ radiosity/engine/methods/matrix.cpp @@ rule_of_three * leaving / (rays * emitted) @@ 0 * leaving / (rays * emitted)
-rays_lost_by_filter @@ engine @@ bvh/wide/kernels/conservative_test.h @@ return F8::splat(error_share) * e * (sum_abs(a) + e + F8::splat(error_offset)); @@ return F8::splat(-1000 * error_share) * e * (sum_abs(a) + e + F8::splat(error_offset));
+rays_lost_by_filter @@ engine @@ bvh/wide/kernels/conservative_test.h @@ return F8::splat(error_share) * e * @@ return F8::splat(-1000 * error_share) * e *
 two_percent_to_balls @@ research @@ radiosity/research/targets/rays_to_balls.cpp @@ shots.power.push_back(shot->power / std::max(takers, 1u) / @@ shots.power.push_back(1.02 * shot->power / std::max(takers, 1u) /
 two_percent_of_a_ball @@ research @@ radiosity/research/targets/target_balls.cpp @@ const double power = 2 * cap * @@ const double power = 2.04 * cap *
 FAULTS

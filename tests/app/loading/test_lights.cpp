@@ -129,9 +129,10 @@ TEST_CASE("A point and a spot bring what their intensity says, and their power i
     write_ground(place);
     place.write("at.csv", "x,y,z,nx,ny,nz\n0,0,0,0,1,0\n0.6,0,0,0,1,0\n");
     const auto irradiance_at = [&](const std::string& options) {
-        const auto run = place.hemilux("solve ground.obj --points at.csv -o p.csv --stats s.json "
-                                       "--light '" +
-                                       options + "'");
+        const auto run =
+            place.hemilux("solve ground.obj --points at.csv --points-output p.csv --stats s.json "
+                          "--light '" +
+                          options + "'");
         CAPTURE(options, run.err);
         REQUIRE(run.code == 0);
         CHECK_THAT(run.err, Contains("W emitted"));

@@ -16,7 +16,7 @@ using test::Running;
 using test::Workplace;
 
 TEST_CASE("a stage shows its name and how long it lasts, and fits the terminal") {
-    CHECK(stage_line("reading", 0, 200) == "[####....................] reading  0 s");
+    CHECK(stage_line("reading", 0, 200) == "[####....................] reading  0 ms");
     const std::string later = stage_line("reading", 1, 200);
     CHECK(later == "[.......####.............] reading  1.00 s");
     const std::string turned = stage_line("reading", 27. / 7, 200); // 13 from the left again
@@ -32,7 +32,7 @@ TEST_CASE("the whole time is told with the stages that matter") {
     statistics.seconds_gather = 6;
     CHECK(
         time_text(statistics) ==
-        "whole time 10.0 s: learning and judging light 3.00 s, gathering 6.00 s, all else 0.80 s");
+        "whole time 10.0 s: learning and judging light 3.00 s, gathering 6.00 s, all else 1.00 s");
     statistics.seconds_gather = statistics.seconds_learn = statistics.seconds_solve = .1;
     CHECK(time_text(statistics) == "whole time 10.0 s");
 }

@@ -21,7 +21,7 @@
 namespace hemilux {
 namespace {
 
-constexpr std::size_t patches_per_chunk = 8;
+constexpr std::size_t patches_of_chunk = 8;
 
 /// Directions uniform in solid angle have lost too many digits below it [sr].
 constexpr double min_solid_angle = 1e-4;
@@ -116,7 +116,7 @@ std::uint64_t LightOfPoints::sample_up_to(std::span<const std::uint32_t> samples
     std::atomic<std::uint64_t> traced{0};
     std::optional<OnThisRank> on_this_rank(monitor.interrupted);
     workers.for_chunks_with(
-        own_.count(), patches_per_chunk, [] { return Work(); },
+        own_.count(), patches_of_chunk, [] { return Work(); },
         [&](Work& work, std::size_t begin, std::size_t end) {
             for (std::size_t k = begin; k < end && !monitor.interrupted; ++k)
                 if (const auto i = static_cast<std::uint32_t>(own_.item(k));

@@ -8,11 +8,11 @@
 // touches the patch. A patch that looks small takes points uniform over its area instead.
 
 #include "bvh/tracer.h"
-#include "geometry/solid_angle.h"
 #include "geometry/vector.h"
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/emitters/point_emitters.h"
+#include "radiosity/engine/emitters/solid_angle.h"
 
 #include <cstdint>
 #include <span>

@@ -5,7 +5,6 @@
 #include <cmath>
 
 using namespace hemilux;
-using Catch::Approx;
 
 TEST_CASE("95 of 100 places are within the local error, by weight") {
     LocalErrors errors;

@@ -1,5 +1,5 @@
 // Solid angles of polygons, and directions uniform over them.
-#include "geometry/solid_angle.h"
+#include "radiosity/engine/emitters/solid_angle.h"
 #include "support/catch.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "geometry/solid_angle.h"
+#include "radiosity/engine/emitters/solid_angle.h"
 
 #include "geometry/elementary.h"
 #include "geometry/numeric.h"
