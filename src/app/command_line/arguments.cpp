@@ -114,8 +114,8 @@ CommandText described(const CLI::App& command) {
                 of_option.excludes.push_back(name);
         text.options.push_back(std::move(of_option));
     }
-    std::ranges::stable_partition(
-        text.options, [](const OptionText& option) { return option.group == first_group; });
+    std::stable_partition(text.options.begin(), text.options.end(),
+                          [](const OptionText& option) { return option.group == first_group; });
     return text;
 }
 
