@@ -41,7 +41,7 @@ TEST_CASE("an option that earlier versions had names what takes its place") {
     CHECK_FALSE(place.has("a.csv"));
 }
 
-TEST_CASE("values that are missing, doubled or contradict each other") {
+TEST_CASE("values that are missing, doubled or contradict each other", "[slow]") {
     const Workplace place;
     place.write_room();
     for (const char* option :

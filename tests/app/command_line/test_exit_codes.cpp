@@ -57,7 +57,7 @@ TEST_CASE("wrong usage ends with 1 and says what was expected") {
     check_fails(place, 1, "solve room.obj -o a.png --max-edge 1e-7", "--max-edge");
 }
 
-TEST_CASE("every number has its range") {
+TEST_CASE("every number has its range", "[slow]") {
     const Workplace place;
     place.write_room();
     for (const char* option : {"--rays 0",

@@ -254,7 +254,7 @@ TEST_CASE("with hemicubes the summary says that their error is not estimated") {
     CHECK_FALSE(place.has("b.json"));
 }
 
-TEST_CASE("an option that changes nothing in a run gets a warning") {
+TEST_CASE("an option that changes nothing in a run gets a warning", "[slow]") {
     const Workplace place;
     place.write_room();
     const auto warned = [&](const std::string& command, const std::string& option) {
