@@ -1,8 +1,8 @@
 #include "radiosity/engine/emitters/direct_light.h"
 
+#include "radiosity/engine/emitters/sample_patches.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/saving/state.h"
-#include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -12,17 +12,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace hemilux {
-namespace {
-
-constexpr std::size_t patches_per_chunk = 8;
-
-} // namespace
 
 /// Samples whose rays are not traced yet.
 struct DirectLight::RayBatch {
@@ -56,26 +49,18 @@ std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
     const std::uint64_t to_points = of_points_.sample_up_to(samples, workers, monitor);
     if (emitters_.empty())
         return to_points;
-    std::atomic<std::uint64_t> traced{0};
-    std::optional<OnThisRank> on_this_rank(monitor.interrupted);
-    workers.for_chunks_with(
-        own_.count(), patches_per_chunk, [] { return RayBatch(); },
-        [&](RayBatch& batch, std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end && !monitor.interrupted; ++k)
-                if (const std::size_t i = own_.item(k); samples[i] > samples_[i])
-                    sample(static_cast<std::uint32_t>(i), samples[i], batch);
-            send(batch);
-            traced += batch.traced;
-            monitor.rays += std::exchange(batch.traced, 0);
-        });
-    on_this_rank.reset();
-    agree(monitor.interrupted);
-    own_.ranks().add_work(traced, 0);
+    const std::uint64_t traced = sample_patches<RayBatch>(
+        own_, workers, monitor,
+        [&](std::uint32_t patch, RayBatch& batch) {
+            if (samples[patch] > samples_[patch])
+                sample(patch, samples[patch], batch);
+        },
+        [&](RayBatch& batch) { send(batch); });
     own_.gather(sum_, seeds_.size());
     own_.gather(samples_);
     own_.gather(hits_);
     own_.gather(unblocked_);
-    return to_points + own_.ranks().sum(traced);
+    return to_points + traced;
 }
 
 void DirectLight::sample(std::uint32_t patch, std::uint32_t end, RayBatch& batch) {

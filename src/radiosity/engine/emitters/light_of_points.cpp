@@ -1,9 +1,9 @@
 #include "radiosity/engine/emitters/light_of_points.h"
 
 #include "geometry/polygon_sampler.h"
+#include "radiosity/engine/emitters/sample_patches.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/saving/state.h"
-#include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -13,15 +13,12 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 namespace hemilux {
 namespace {
-
-constexpr std::size_t patches_of_chunk = 8;
 
 /// Directions uniform in solid angle have lost too many digits below it [sr].
 constexpr double min_solid_angle = 1e-4;
@@ -113,27 +110,18 @@ std::uint64_t LightOfPoints::sample_up_to(std::span<const std::uint32_t> samples
                                           const Workers& workers, Monitor& monitor) {
     if (empty())
         return 0;
-    std::atomic<std::uint64_t> traced{0};
-    std::optional<OnThisRank> on_this_rank(monitor.interrupted);
-    workers.for_chunks_with(
-        own_.count(), patches_of_chunk, [] { return Work(); },
-        [&](Work& work, std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end && !monitor.interrupted; ++k)
-                if (const auto i = static_cast<std::uint32_t>(own_.item(k));
-                    planned(samples[i]) > samples_[i])
-                    sample(i, planned(samples[i]), work);
-            send(work);
-            traced += work.traced;
-            monitor.rays += std::exchange(work.traced, 0);
-        });
-    on_this_rank.reset();
-    agree(monitor.interrupted);
-    own_.ranks().add_work(traced, 0);
+    const std::uint64_t traced = sample_patches<Work>(
+        own_, workers, monitor,
+        [&](std::uint32_t patch, Work& work) {
+            if (planned(samples[patch]) > samples_[patch])
+                sample(patch, planned(samples[patch]), work);
+        },
+        [&](Work& work) { send(work); });
     own_.gather(sum_, seeds_.size());
     own_.gather(samples_);
     own_.gather(hits_);
     own_.gather(unblocked_);
-    return own_.ranks().sum(traced);
+    return traced;
 }
 
 void LightOfPoints::look_from_lights(std::uint32_t patch, Work& work) const {
