@@ -2,13 +2,12 @@
 #include "app/program.h"
 #include "app/running.h"
 #include "app/running/signals.h"
+#include "app/watched_terminal.h"
 #include "support/catch.h"
 
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
-#include <fcntl.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -103,36 +102,16 @@ TEST_CASE("Ctrl-C before there is a reference ends a comparison without one") {
 }
 
 TEST_CASE("a terminal gets a progress bar, which is gone at the end", "[slow]") {
-    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
-    REQUIRE(terminal >= 0);
-    REQUIRE(grantpt(terminal) == 0);
-    REQUIRE(unlockpt(terminal) == 0);
-    const std::string name = ptsname(terminal);
-    const int keep_open = open(name.c_str(), O_WRONLY | O_NOCTTY); // reading ends without an error
-
+    test::WatchedTerminal terminal;
     const Workplace place;
     place.write_room();
     // An interrupt ends it as soon as the bar was there; the time that is left is shown after 2 %.
-    Running run(place, "solve room.obj --method hemisphere --time 60 -o a.csv", name.c_str());
-    std::string seen;
-    std::atomic<bool> bar_was_complete{false};
-    std::thread reader([&] {
-        char buffer[256];
-        while (seen.find("wrote a.csv") == std::string::npos) {
-            const ssize_t count = read(terminal, buffer, sizeof buffer);
-            if (count <= 0)
-                return;
-            seen.append(buffer, static_cast<std::size_t>(count));
-            bar_was_complete = seen.find(" left") != std::string::npos;
-        }
-    });
-    CHECK(test::wait_until([&] { return bar_was_complete || run.ended(); }));
+    Running run(place, "solve room.obj --method hemisphere --time 60 -o a.csv", terminal.name());
+    CHECK(test::wait_until(
+        [&] { return terminal.seen().find(" left") != std::string::npos || run.ended(); }));
     run.interrupt();
     const int code = run.wait();
-    CHECK(write(keep_open, "wrote a.csv", 11) == 11); // ends the reader whatever happened
-    reader.join();
-    close(keep_open);
-    close(terminal);
+    const std::string seen = terminal.end();
 
     CHECK(code == 130);
     CHECK_THAT(seen, Contains("rays/s") && Contains(" %  ") && Contains("left"));

@@ -3,12 +3,10 @@
 #include "app/running.h"
 #include "app/terminal/stage.h"
 #include "app/terminal/summary.h"
+#include "app/watched_terminal.h"
 #include "support/catch.h"
 
-#include <fcntl.h>
 #include <string>
-#include <thread>
-#include <unistd.h>
 
 using namespace hemilux;
 using Catch::Contains;
@@ -38,34 +36,15 @@ TEST_CASE("the whole time is told with the stages that matter") {
 }
 
 TEST_CASE("a terminal sees each long stage of a run, and nothing of it at the end", "[slow]") {
-    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
-    REQUIRE(terminal >= 0);
-    REQUIRE(grantpt(terminal) == 0);
-    REQUIRE(unlockpt(terminal) == 0);
-    const std::string name = ptsname(terminal);
-    const int keep_open = open(name.c_str(), O_WRONLY | O_NOCTTY); // reading ends without an error
-
+    test::WatchedTerminal terminal;
     const Workplace place;
     place.write_room();
     Running run(place,
                 "solve room.obj --steps 1 -o a.png --gather 1024 --size 600x450 -t 1 " +
                     test::camera_in_room,
-                name.c_str());
-    std::string seen;
-    std::thread reader([&] {
-        char buffer[256];
-        while (seen.find("the end") == std::string::npos) {
-            const ssize_t count = read(terminal, buffer, sizeof buffer);
-            if (count <= 0)
-                return;
-            seen.append(buffer, static_cast<std::size_t>(count));
-        }
-    });
+                terminal.name());
     const int code = run.wait();
-    CHECK(write(keep_open, "the end", 7) == 7);
-    reader.join();
-    close(keep_open);
-    close(terminal);
+    const std::string seen = terminal.end();
 
     CHECK(code == 0);
     CHECK_THAT(seen, Contains("] gathering the picture  "));
