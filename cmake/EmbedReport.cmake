@@ -15,7 +15,7 @@ endfunction()
 # `compare --report`, their style, and their scripts: those of both one after the other.
 function(hemilux_embed_report output folder)
   set(report_shared "")
-  foreach(script data text camera scene hemisphere layers factors steering)
+  foreach(script data text camera scene hemisphere layers factors lamps steering)
     list(APPEND shared ${folder}/page/${script}.js)
   endforeach()
   foreach(file IN LISTS shared)

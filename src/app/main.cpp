@@ -8,6 +8,7 @@
 #include "app/memory/own_stack.h"
 #include "app/ranks/started_ranks.h"
 #include "app/running/signals.h"
+#include "app/settings/dim_settings.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
 #include "app/settings/view_factor_settings.h"
@@ -95,6 +96,7 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     DensitySettings density_settings;
     FormFactorSettings formfactor_settings;
     ViewFactorSettings viewfactor_settings;
+    DimSettings dim_settings;
     InfoSettings info_settings;
     program.program().add_version("-V,--version", "hemilux " HEMILUX_VERSION,
                                   "Display program version information and exit");
@@ -104,6 +106,7 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     const Command density_command = add_density_command(program, density_settings);
     const Command formfactors_command = add_formfactors_command(program, formfactor_settings);
     const Command viewfactors_command = add_viewfactors_command(program, viewfactor_settings);
+    const Command dim_command = add_dim_command(program, dim_settings);
     add_info_command(program, info_settings);
     program.program().add_answer(
         "--print", "man|bash|zsh|fish", "Print the manual page, or the completions of a shell",
@@ -135,6 +138,10 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
         bake_settings.from = provenance(bake_command, bake_settings.options.seed);
         bake_settings.given = bake_command.options_given();
         return solve(bake_settings);
+    }
+    if (dim_command.parsed()) {
+        dim_settings.from = provenance(dim_command, 0);
+        return dim(dim_settings);
     }
     if (compare_command.parsed()) {
         compare_settings.from = provenance(compare_command, compare_settings.options.seed);

@@ -164,6 +164,16 @@ void add_target_option(Command command, TargetSettings& target) {
         .repeatable();
 }
 
+void add_layers_option(Command command, std::optional<LayersBy>& layers) {
+    add_choice<LayersBy>(
+        command, "--layers",
+        {{LayersBy::lamp, "lamp"}, {LayersBy::group, "group"}, {LayersBy::material, "material"}},
+        "also the light of each lamp, of the sun and of the sky by itself, by faces that touch, by "
+        "group or by material: in columns of .csv and of --points-output, in layers of .exr "
+        "pictures and lightmaps, in --report; `hemilux dim` gives them other powers",
+        [&layers](LayersBy by) { layers = by; });
+}
+
 void add_error_map_option(Command command, SolveSettings& settings) {
     add_path(command, "--error-map", "FILE.png",
              "picture in false colour of how far the light of each patch is off", ".png",
@@ -254,6 +264,7 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_target_option(command.under("Target"), settings.target);
     add_output_options(outputs, settings);
     add_point_options(outputs, settings);
+    add_layers_option(outputs, settings.layers);
     add_error_map_option(outputs, settings);
     add_report_option(outputs, settings.report,
                       "a page for a browser: the lit scene to turn around, the numbers of each "

@@ -5,6 +5,7 @@
 
 namespace hemilux {
 
+struct DimSettings;        // dim_settings.h
 struct ViewFactorSettings; // view_factor_settings.h
 
 int solve(const SolveSettings& settings);
@@ -12,6 +13,7 @@ int compare(const CompareSettings& settings);
 int density(DensitySettings settings);
 int formfactors(const FormFactorSettings& settings);
 int viewfactors(const ViewFactorSettings& settings);
+int dim(const DimSettings& settings);
 int info(const InfoSettings& settings);
 
 } // namespace hemilux

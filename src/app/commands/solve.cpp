@@ -10,6 +10,7 @@
 #include "app/gathering/point_table.h"
 #include "app/gathering/shown_camera.h"
 #include "app/gathering/target_light.h"
+#include "app/lamps/lamp_light.h"
 #include "app/loading/load.h"
 #include "app/loading/reference.h"
 #include "app/memory/memory.h"
@@ -134,6 +135,7 @@ Loaded load(SolveSettings settings) {
     check_own_options(settings.options, methods);
     check_plain(settings);
     check_target(settings);
+    check_layers(settings);
     check_checkpoint_options(settings);
     warn_of_unused(settings);
     Workers(settings.options.threads).start();
@@ -159,6 +161,7 @@ Loaded load(SolveSettings settings) {
                                                                                : Verbosity::quiet);
     check_camera(settings.view, mesh, settings.scene.path);
     check_lightmap(settings, mesh);
+    check_layers(settings, mesh);
     check_own_options(settings.options, methods, mesh.patches().size());
     check_plain(settings, mesh.patches().size());
     FileLightmap file_lightmap;
@@ -338,24 +341,42 @@ LightmapLayout lightmap_layout(const Problem& problem) {
     }
 }
 
-/// Gathers light where outputs show that; chooses the camera of pictures.
-GatheredLight gather(const Problem& problem, Run& done, const Solution& solution,
-                     Statistics& statistics) {
+/// The light of the outputs.
+struct GivenLight {
+    GatheredLight gathered;
+    LampLight lamps;
+};
+
+/// Gathers light where outputs show that; chooses the camera of pictures. Then finds what each lamp
+/// brings of all this, where it is asked for.
+GivenLight give_light(const Problem& problem, Run& done, const Solution& solution,
+                      Statistics& statistics) {
     const SolveSettings& settings = problem.settings();
-    if (solution.steps == 0 || !gathers(settings) || !settings.ranks->is_first())
+    if (solution.steps == 0)
         return {};
-    const OnThisRank works_alone(problem.monitor.interrupted);
     const LitScene lit = lit_scene(problem, solution);
-    if (has_pictures(settings) && !done.camera)
-        done.camera = shown_camera_of(settings.view, lit, settings.verbosity);
-    return gather_light(settings, lit, solution, problem.loaded.points,
-                        done.camera.value_or(Camera()), lightmap_layout(problem), problem.monitor,
-                        statistics);
+    const bool gathers_here = gathers(settings) && settings.ranks->is_first();
+    LightmapLayout layout;
+    GivenLight given;
+    if (gathers_here) {
+        const OnThisRank works_alone(problem.monitor.interrupted);
+        if (has_pictures(settings) && !done.camera)
+            done.camera = shown_camera_of(settings.view, lit, settings.verbosity);
+        layout = lightmap_layout(problem);
+        given.gathered =
+            gather_light(settings, lit, solution, problem.loaded.points,
+                         done.camera.value_or(Camera()), layout, problem.monitor, statistics);
+    }
+    given.lamps = find_lamp_light(settings,
+                                  {lit, *done.solver, solution, given.gathered,
+                                   problem.loaded.points, done.camera.value_or(Camera()), layout},
+                                  problem.monitor, statistics);
+    return given;
 }
 
 /// Writes the outputs; returns the exit code.
 int write(const Problem& problem, const Run& done, const Solution& solution, Statistics& statistics,
-          const GatheredLight& gathered, const std::optional<Reference>& reference,
+          const GivenLight& given, const std::optional<Reference>& reference,
           const Stopwatch& started) {
     const Loaded& loaded = problem.loaded;
     SolveSettings settings = loaded.settings;
@@ -368,12 +389,13 @@ int write(const Problem& problem, const Run& done, const Solution& solution, Sta
     std::span<const LightOfStep> lights = done.lights;
     if (!lights.empty() && lights.back().step == solution.steps) // which is shown as the last one
         lights = lights.first(lights.size() - 1);
-    const int code = finish(settings,
-                            {problem.mesh(), problem.tracer(), solution, settings.options,
-                             statistics, done.rows, lights, done.unit, loaded.points, gathered,
-                             loaded.file_lightmap, loaded.scene.warnings, problem.monitor},
-                            done.written, reference, done.notes, interrupted, started,
-                            loaded.resumed ? loaded.resumed->seconds : 0);
+    const int code =
+        finish(settings,
+               {problem.mesh(), problem.tracer(), solution, settings.options, statistics, done.rows,
+                lights, done.unit, loaded.points, given.gathered, given.lamps, loaded.file_lightmap,
+                loaded.scene.warnings, problem.monitor},
+               done.written, reference, done.notes, interrupted, started,
+               loaded.resumed ? loaded.resumed->seconds : 0);
     stage.reset();
     if (interrupted && !settings.ranks->are_several())
         end_at_once(code);
@@ -414,8 +436,8 @@ int solve(Problem& problem, const Stopwatch& started) {
                       problem.monitor, statistics);
         solution = &*of_target;
     }
-    const GatheredLight gathered = gather(problem, done, *solution, statistics);
-    return write(problem, done, *solution, statistics, gathered, reference, started);
+    const GivenLight given = give_light(problem, done, *solution, statistics);
+    return write(problem, done, *solution, statistics, given, reference, started);
 }
 
 } // namespace

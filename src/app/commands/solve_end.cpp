@@ -36,7 +36,7 @@ double seconds_of_stages(const Statistics& s) {
     const auto known = [](double seconds) { return std::isfinite(seconds) ? seconds : 0; };
     return known(s.seconds_read) + known(s.seconds_bvh) + s.seconds_divide +
            known(s.seconds_density) + known(s.seconds_solve) + known(s.seconds_division_error) +
-           s.seconds_learn + s.seconds_gather;
+           s.seconds_learn + s.seconds_gather + s.seconds_layers;
 }
 
 /// Returns what a user must know of a run that has ended.

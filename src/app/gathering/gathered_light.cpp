@@ -337,6 +337,8 @@ void Gathering::find_lightmap(const LightmapLayout& layout) {
 }
 
 GatheredLight Gathering::finish() {
+    if (errors_)
+        light_.error = errors_->whole();
     if (errors_ && gives_gathered_light(settings_)) {
         statistics_.estimated_error = errors_->whole();
         statistics_.error_bound = errors_->bound();

@@ -13,6 +13,7 @@
 #include "radiosity/light/final_gather/light_at_points.h"
 #include "radiosity/paper/solving/solver.h"
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,6 +27,8 @@ struct GatheredLight {
     LightAtPoints points;
     std::optional<Image> picture;  ///< empty: none was asked for, or a signal ended it
     std::optional<Image> lightmap; ///< empty: none was asked for
+    /// The relative error, the largest of what is given out [-]; NaN where it is not known.
+    double error = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Returns whether any output shows gathered light.

@@ -15,6 +15,7 @@ void check_distances(const std::string& path, std::span<const NamedPoint> points
 /// Writes the table of what was gathered; rows that a limit or a signal left have no light. Throws
 /// OutputError, and Interrupted where a signal left nothing.
 void write_points(const std::string& path, const Mesh& mesh, std::span<const NamedPoint> points,
-                  const GatheredLight& gathered, const Workers& workers);
+                  const GatheredLight& gathered, const Workers& workers,
+                  const csv::MoreColumns& more = {});
 
 } // namespace hemilux

@@ -29,6 +29,22 @@ void write_light(PageFile& page, const ReportContent& content, const CornerClass
         write("hits", [&](std::size_t i) { return static_cast<double>(solution.hits[i]); });
 }
 
+void write_lamps(PageFile& page, const ReportContent& content, const CornerClasses& classes) {
+    const Mesh& mesh = content.mesh;
+    const double unit = unit_of_lamps(content);
+    for (std::size_t k = 0; k < content.lamps.patches.size(); ++k) {
+        const Relit& lamp = content.lamps.patches[k];
+        const std::string id = "lamp-" + std::to_string(k);
+        write_halves(page, id, halves_of(lamp.radiosity, unit));
+        write_halves(page, "smooth-" + id,
+                     halves_of(smooth(mesh, classes, lamp.radiosity, lamp.slope), unit));
+    }
+    if (!content.lamps.patches.empty())
+        page.array("lamp-of", mesh.patches().size(), [&](std::size_t i, std::string& bytes) {
+            append(bytes, content.lamps.lamps.of_facet[mesh.patches()[i].facet]);
+        });
+}
+
 void write_densities(PageFile& page, const ReportDensities& densities, std::size_t patches) {
     const std::vector<Vec3>& vertices = densities.hemisphere.vertices();
     const std::vector<Hemisphere::Cell>& cells = densities.hemisphere.cells();
@@ -62,6 +78,7 @@ void write_report_page(const std::string& path, const ReportContent& content) {
     write_light(page, content, classes);
     for (const LightOfStep& light : content.lights)
         write_halves(page, "light-" + std::to_string(light.step), light.halves);
+    write_lamps(page, content, classes);
     if (content.densities)
         write_densities(page, *content.densities, content.mesh.patches().size());
     page.finish(assets::solve_script);

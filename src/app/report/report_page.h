@@ -22,6 +22,9 @@
 //   counts       uint8        of each patch at each vertex: surfaces, 254 or more; 255: not counted
 //                             (these four where the method is guided by densities)
 //   light-1, -2, -4 ...  float16 x 3  radiosity after these steps, as multiples of `unit`
+//   lamp-0, -1 ...  float16 x 3   radiosity by each lamp of --layers, as multiples of `lamp_unit`
+//   smooth-lamp-0 ...  float16 x 3  the same of each vertex, smoothed
+//   lamp-of      uint32       the lamp that each patch is of; 4294967295: of none
 //   reflectance, emission  float32 x 3, where there are textures: means over each patch
 //
 // That is 60 bytes a patch, 84 with textures, 41 more with densities of depth 2, 6 for each step

@@ -103,6 +103,10 @@ Json row_json(const StepRow& row) {
 
 } // namespace
 
+double unit_of_lamps(const ReportContent& content) {
+    return mean_light(content.mesh, content.solution.radiosity);
+}
+
 std::string run_json(const ReportContent& content) {
     const auto curve = [&](std::size_t kind) {
         return ChartedRuns{error_kinds()[kind].name, {content.steps}, &error_kinds()[kind]};
@@ -120,6 +124,10 @@ std::string run_json(const ReportContent& content) {
     run["charts"] = charts_json({&chart, 1});
     run["unit"] = content.unit;
     run["lit_steps"] = lit_steps(content.lights);
+    for (std::size_t k = 0; k < content.lamps.patches.size(); ++k)
+        run["lamps"].push_back(content.lamps.lamps.layers[k].name);
+    if (run.contains("lamps"))
+        run["lamp_unit"] = unit_of_lamps(content);
     if (content.densities)
         run["threshold"] = content.densities->threshold;
     return text_of(run);

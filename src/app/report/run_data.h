@@ -7,6 +7,7 @@
 #include "io/pictures/camera.h"
 #include "io/results/statistics.h"
 #include "io/results/tables.h"
+#include "radiosity/light/lamps/lamp_layers.h"
 
 #include <optional>
 #include <span>
@@ -44,12 +45,17 @@ struct ReportContent {
     std::optional<double> exposure;             ///< empty: the page chooses one
     std::span<const LightOfStep> lights;        ///< light after steps before the last, ascending
     double unit = 1;                            ///< unit of these lights [W/m2]
+    const LampPatches& lamps;                   ///< none where they are not asked for
     const ReportDensities* densities = nullptr; ///< densities of methods that have them
 };
 
+/// Returns the unit of the light of lamps [W/m2].
+[[nodiscard]] double unit_of_lamps(const ReportContent& content);
+
 /// Returns the JSON. The keys are scene, command, version, machine, centre, materials, groups,
 /// camera, exposure, warnings, statistics (as of to_json), steps, charts (name and svg), unit,
-/// lit_steps (those before the last with a light) and, where there are densities, threshold.
+/// lit_steps (those before the last with a light) and, where there are such, lamps (their names),
+/// lamp_unit (of their light) and threshold (of densities).
 [[nodiscard]] std::string run_json(const ReportContent& content);
 
 /// A method of a comparison.

@@ -66,6 +66,14 @@ Image picture_of(const Image& light, const std::vector<std::uint32_t>& patches, 
 
 } // namespace
 
+void add_lamp_channels(std::vector<ExrChannel>& channels, const LampLight& lamps,
+                       std::optional<Image> GatheredLamp::*of) {
+    const std::vector<std::string> names = channel_names(lamps.lamps);
+    for (std::size_t k = 0; k < lamps.gathered.size(); ++k)
+        if (const std::optional<Image>& image = lamps.gathered[k].*of)
+            add_exr_channels(channels, names[k], *image);
+}
+
 std::vector<ExrChannel> picture_layers(const Results& results, const Image& light,
                                        const Camera& camera) {
     const Solution& solution = results.solution;
@@ -94,6 +102,7 @@ std::vector<ExrChannel> picture_layers(const Results& results, const Image& ligh
                 std::bit_cast<std::uint32_t>(i == no_patch ? 0.0f : static_cast<float>(means[i])));
         channels.push_back(std::move(density));
     }
+    add_lamp_channels(channels, results.lamps, &GatheredLamp::picture);
     channels.push_back({"patch", ExrChannel::Kind::whole, patches});
     return channels;
 }

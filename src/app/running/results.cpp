@@ -100,6 +100,39 @@ class Picture {
     Camera camera_; ///< of the image
 };
 
+/// Returns the columns of layers: of the light of patches, with the lamp that each is of.
+csv::MoreColumns columns_of_patches(const Results& results) {
+    const LampLight& light = results.lamps;
+    if (light.patches.empty())
+        return {};
+    csv::MoreColumns columns{
+        "lamp", [&](std::size_t patch) -> std::string_view {
+            const std::uint32_t lamp = light.lamps.of_facet[results.mesh.patches()[patch].facet];
+            return lamp == none ? std::string_view() : light.lamps.layers[lamp].name;
+        }};
+    for (std::size_t k = 0; k < light.patches.size(); ++k) {
+        const Relit& layer = light.patches[k];
+        const std::string& name = light.lamps.layers[k].name;
+        columns.colours.push_back({name, [&](std::size_t i) { return layer.radiosity[i]; }});
+        columns.colours.push_back(
+            {name + ".stderr", [&](std::size_t i) { return layer.standard_error[i]; }});
+    }
+    return columns;
+}
+
+/// Returns the columns of layers, of the irradiance at points.
+csv::MoreColumns columns_of_points(const LampLight& light) {
+    csv::MoreColumns columns;
+    for (std::size_t k = 0; k < light.gathered.size(); ++k) {
+        const std::vector<PointLight>& points = light.gathered[k].points;
+        const std::string& name = light.lamps.layers[k].name;
+        columns.colours.push_back({name, [&](std::size_t i) { return points[i].irradiance; }});
+        columns.colours.push_back(
+            {name + ".stderr", [&](std::size_t i) { return points[i].standard_error; }});
+    }
+    return columns;
+}
+
 std::vector<Vec3> indirect_light(unsigned gather, const Results& results) {
     const unsigned rays = SolveSettings::bake_rays_per_gather_ray * gather;
     const PictureTime time(results.monitor.interrupted.own().wished);
@@ -118,9 +151,11 @@ int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
 
 /// Writes a .glb file and its lightmap, each as an attempt of its own: neither's failure takes the
 /// other.
-void write_lightmapped(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
-                       const CornerClasses& classes, VertexLight light, int up,
-                       const std::optional<Image>& gathered, WriteReport& report) {
+void write_lightmapped(const SolveSettings& settings, const std::string& path,
+                       const Results& results, const CornerClasses& classes, VertexLight light,
+                       int up, WriteReport& report) {
+    const Mesh& mesh = results.mesh;
+    const std::optional<Image>& gathered = results.gathered.lightmap;
     const int size = *settings.lightmap;
     const std::vector<LightmapChart> charts = find_charts(mesh, size); // which fit: check_lightmap
     const ChartCorners corners = divide_by_charts(mesh, classes, charts);
@@ -135,6 +170,7 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path, c
         std::vector<ExrChannel> channels;
         add_half_exr_channels(channels, gathered ? *gathered
                                                  : lightmap(charts, corners, light.of_class, size));
+        add_lamp_channels(channels, results.lamps, &GatheredLamp::lightmap);
         write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
     });
     write_glb(path, mesh, corners.classes, light, settings.from, up, texcoords);
@@ -152,8 +188,7 @@ void write_mesh(const SolveSettings& settings, const Output& output, const Resul
         return write_ply(output.path, results.mesh, classes, light, settings.ply_colours);
     const int up = up_axis(settings.view.up, results.mesh, settings.verbosity);
     if (settings.lightmap)
-        write_lightmapped(settings, output.path, results.mesh, classes, light, up,
-                          results.gathered.lightmap, report);
+        write_lightmapped(settings, output.path, results, classes, light, up, report);
     else
         write_glb(output.path, results.mesh, classes, light, settings.from, up);
 }
@@ -168,6 +203,7 @@ void write_own_file(const SolveSettings& settings, const std::string& path, cons
     report.attempt(lightmap_path(path), [&] {
         std::vector<ExrChannel> channels;
         add_half_exr_channels(channels, light);
+        add_lamp_channels(channels, results.lamps, &GatheredLamp::lightmap);
         write_exr(lightmap_path(path), light.width, light.height, std::move(channels),
                   settings.from);
     });
@@ -191,7 +227,7 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
     case OutputKind::csv:
         return write_patch_table(output.path, results.mesh, solution.radiosity,
                                  solution.standard_error, Workers(results.options.threads),
-                                 solution.slope, solution.weight);
+                                 solution.slope, solution.weight, columns_of_patches(results));
     case OutputKind::json:
         return write_atomically(output.path, to_json(results.statistics));
     }
@@ -199,17 +235,12 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
 
 void write_report(const SolveSettings& settings, const Results& results) {
     const SolveOptions& options = results.options;
-    ReportContent content{results.mesh,
-                          results.solution,
-                          results.statistics,
-                          results.steps,
-                          results.warnings,
-                          settings.scene.path,
-                          settings.from.command,
-                          camera_of(settings.view, results.lit()),
-                          settings.view.exposure,
-                          results.lights,
-                          results.unit};
+    ReportContent content{results.mesh,           results.solution,
+                          results.statistics,     results.steps,
+                          results.warnings,       settings.scene.path,
+                          settings.from.command,  camera_of(settings.view, results.lit()),
+                          settings.view.exposure, results.lights,
+                          results.unit,           results.lamps};
     const bool by_densities =
         settings.method == &method_of(Role::paper) && !guide_of(options) && !settings.plain;
     if (!by_densities)
@@ -246,7 +277,7 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
     if (!settings.points.output.empty())
         report.attempt(settings.points.output, [&] {
             write_points(settings.points.output, results.mesh, results.points, results.gathered,
-                         Workers(results.options.threads));
+                         Workers(results.options.threads), columns_of_points(results.lamps));
         });
     const double seconds_points = writing.seconds();
     std::vector<WriteReport> reports(settings.outputs.size());

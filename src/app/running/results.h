@@ -2,6 +2,7 @@
 // The files that a run leaves behind, as they were asked for.
 
 #include "app/gathering/gathered_light.h"
+#include "app/lamps/lamp_light.h"
 #include "app/rendering/view.h"
 #include "app/report/run_data.h"
 #include "app/running/write_report.h"
@@ -30,6 +31,7 @@ struct Results {
     double unit;                         ///< unit of these lights [W/m2]
     std::span<const NamedPoint> points;
     const GatheredLight& gathered;
+    const LampLight& lamps;                ///< none where they are not asked for
     const FileLightmap& file_lightmap;     ///< of `bake`
     std::span<const std::string> warnings; ///< of reading and of the run
     Monitor& monitor; ///< once it is interrupted, densities and what takes long are left out

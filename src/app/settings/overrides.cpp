@@ -7,7 +7,12 @@
 namespace hemilux {
 namespace {
 
-/// Returns whether the name is the pattern, where each * of it stands for any letters.
+void remove_texture(MaterialTextures& textures, Vec3 Material::*quantity) {
+    (quantity == &Material::emission ? textures.emission : textures.reflectance).texture.reset();
+}
+
+} // namespace
+
 bool matches(std::string_view pattern, std::string_view name) {
     const std::size_t star = pattern.find('*');
     if (star == std::string_view::npos || pattern == name)
@@ -23,12 +28,6 @@ bool matches(std::string_view pattern, std::string_view name) {
     const std::size_t at = name.find(pattern.substr(0, next));
     return at != std::string_view::npos && matches(pattern.substr(next), name.substr(at + next));
 }
-
-void remove_texture(MaterialTextures& textures, Vec3 Material::*quantity) {
-    (quantity == &Material::emission ? textures.emission : textures.reflectance).texture.reset();
-}
-
-} // namespace
 
 std::optional<Override> parse_override(std::string_view text, const NumberRange& range) {
     // The value has no '='; a material's name may.

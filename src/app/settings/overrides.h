@@ -21,6 +21,9 @@ struct Override {
 inline constexpr NumberRange emission_range = non_negative;
 inline constexpr NumberRange reflectance_range{.low = 0, .high = 1};
 
+/// Returns whether the name is the pattern, where each * of it stands for any letters.
+[[nodiscard]] bool matches(std::string_view pattern, std::string_view name);
+
 /// Reads "MATERIAL=R,G,B" or "MATERIAL=GREY"; empty for any other text.
 [[nodiscard]] std::optional<Override> parse_override(std::string_view text,
                                                      const NumberRange& range);

@@ -13,6 +13,7 @@
 #include "io/pictures/camera.h"
 #include "io/results/statistics.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/light/lamps/lamp_layers.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <cstdint>
@@ -132,7 +133,8 @@ struct SolveSettings {
     static constexpr int max_lightmap = 16384;
     /// The number of rays from a patch for each ray of --gather, where the indirect light is baked.
     static constexpr unsigned bake_rays_per_gather_ray = 64;
-    bool gather_pictures = true; ///< else they interpolate the light of the patches
+    std::optional<LayersBy> layers; ///< the light of each lamp by itself is given out too
+    bool gather_pictures = true;    ///< else they interpolate the light of the patches
     Verbosity verbosity = Verbosity::normal;
     const Ranks* ranks = &one_rank(); ///< processes that solve it together
 

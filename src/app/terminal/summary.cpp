@@ -123,6 +123,7 @@ std::string time_text(const Statistics& s) {
         {"analysis", s.seconds_analysis},
         {"learning and judging light", s.seconds_learn},
         {"gathering", s.seconds_gather},
+        {"layers", s.seconds_layers},
         {"pictures", s.seconds_picture},
         {"other files", s.seconds_write}};
     constexpr double least_share = .05;

@@ -52,6 +52,21 @@ void append_text(std::string& line, std::string_view name) {
     line += '"';
 }
 
+void append_names(std::string& header, const MoreColumns& columns) {
+    if (!columns.word_name.empty())
+        append_text(header += ',', columns.word_name);
+    for (const ColourColumns& column : columns.colours)
+        for (const char* const channel : {".r", ".g", ".b"})
+            append_text(header += ',', column.name + channel);
+}
+
+void append_fields(std::string& line, const MoreColumns& columns, std::size_t row) {
+    if (!columns.word_name.empty())
+        append_text(line += ',', columns.word(row));
+    for (const ColourColumns& column : columns.colours)
+        append_fields(line, column.value(row));
+}
+
 Reader::Reader(const std::string& file, std::string_view content) : file_(file), left_(content) {}
 
 bool Reader::next(std::vector<std::string>& fields) {

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,21 @@ void append_fields(std::string& line, const Vec3& v);
 /// with = + - or @, or with a tab or line end. Such a name gets an apostrophe in front. Numbers are
 /// written by append_number, which adds none.
 void append_text(std::string& line, std::string_view text);
+
+/// Three columns NAME.r, NAME.g and NAME.b that a table may end with.
+struct ColourColumns {
+    std::string name;
+    std::function<Vec3(std::size_t row)> value;
+};
+/// What a table may end with: a column of words, and columns of colours.
+struct MoreColumns {
+    std::string word_name = {}; ///< empty: there are no words
+    std::function<std::string_view(std::size_t row)> word = {};
+    std::vector<ColourColumns> colours = {};
+};
+/// Appends their names, and their fields of a row, each after a comma.
+void append_names(std::string& header, const MoreColumns& columns);
+void append_fields(std::string& line, const MoreColumns& columns, std::size_t row);
 
 /// Reads records one after the other. Accepts CRLF and a missing final newline.
 class Reader {

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view points_header =
     "point,x,y,z,nx,ny,nz,irradiance_r,irradiance_g,irradiance_b,radiosity_r,radiosity_g,"
-    "radiosity_b,stderr_r,stderr_g,stderr_b\n";
+    "radiosity_b,stderr_r,stderr_g,stderr_b";
 
 /// Takes the next word of a row, which a comma or blanks end; empty where there is none.
 std::string_view next_field(std::string_view& row) {
@@ -70,12 +70,14 @@ NamedPoint point_from(const std::string& path, std::size_t line, std::string_vie
 
 /// Appends the row of a point; its light is empty where there is none.
 void append_row(const Mesh& mesh, std::uint64_t number, const NamedPoint& point,
-                const Sensor& sensor, const PointLight* light, std::string& text) {
+                const Sensor& sensor, const PointLight* light, const csv::MoreColumns& more,
+                std::string& text) {
     csv::append_number(text, number);
     csv::append_fields(text, point.position);
     csv::append_fields(text, point.given_normal);
     if (!light) {
-        text += ",,,,,,,,,\n";
+        text.append(9 + 3 * more.colours.size(), ',');
+        text += '\n';
         return;
     }
     csv::append_fields(text, light->irradiance);
@@ -86,6 +88,7 @@ void append_row(const Mesh& mesh, std::uint64_t number, const NamedPoint& point,
         text += ",,,";
     }
     csv::append_fields(text, light->standard_error);
+    csv::append_fields(text, more, number);
     text += '\n';
 }
 
@@ -117,10 +120,13 @@ std::vector<NamedPoint> read_points(const std::string& path) {
 
 void write_points_table(const std::string& path, const Mesh& mesh,
                         std::span<const NamedPoint> points, std::span<const Sensor> sensors,
-                        std::span<const PointLight> lights, const Workers& workers) {
+                        std::span<const PointLight> lights, const Workers& workers,
+                        const csv::MoreColumns& more) {
     constexpr std::size_t rows_per_text = 256, texts_at_a_time = 64;
     AtomicFile file(path);
-    file.write(points_header);
+    std::string header(points_header);
+    csv::append_names(header, more);
+    file.write(header + "\n");
     std::array<std::string, texts_at_a_time> texts;
     for (std::size_t first = 0; first < points.size(); first += texts_at_a_time * rows_per_text) {
         const auto row = [&](std::size_t text) {
@@ -132,7 +138,7 @@ void write_points_table(const std::string& path, const Mesh& mesh,
                 texts[k].clear();
                 for (std::size_t i = row(k); i < row(k + 1); ++i)
                     append_row(mesh, i, points[i], sensors[i],
-                               i < lights.size() ? &lights[i] : nullptr, texts[k]);
+                               i < lights.size() ? &lights[i] : nullptr, more, texts[k]);
             },
             [&](std::size_t k) { file.write(texts[k]); });
     }

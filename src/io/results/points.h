@@ -2,6 +2,7 @@
 // Points at which a user wants to know the light (sensors), and the table of it.
 
 #include "geometry/vector.h"
+#include "io/results/csv.h"
 #include "radiosity/light/final_gather/light_at_points.h"
 
 #include <cstddef>
@@ -29,9 +30,10 @@ struct NamedPoint {
 
 /// Writes one row per point: its number from 0, and its position and normal as they were read. Then
 /// follow the irradiance, the radiosity of the face that the point lies on, and the standard error
-/// of the irradiance [W/m2]; these are empty beyond the lights. Throws OutputError.
+/// of the irradiance [W/m2], and `more`; these are empty beyond the lights. Throws OutputError.
 void write_points_table(const std::string& path, const Mesh& mesh,
                         std::span<const NamedPoint> points, std::span<const Sensor> sensors,
-                        std::span<const PointLight> lights, const Workers& workers);
+                        std::span<const PointLight> lights, const Workers& workers,
+                        const csv::MoreColumns& more = {});
 
 } // namespace hemilux

@@ -90,6 +90,13 @@ Json to_object(const Statistics& s) {
         object["emitted_far"] = s.emitted_far;
         object["reflected"] = s.reflected;
     }
+    for (const LayerFigures& layer : s.layers)
+        object["layers"].push_back(
+            {{"name", layer.name}, {"emitted", channels(layer.emitted)}, {"error", layer.error}});
+    if (!s.layers.empty()) {
+        object["seconds_layers"] = s.seconds_layers;
+        object["rays_layers"] = s.rays_layers;
+    }
     for (const auto& [work, bytes_peak] : s.ranks)
         object["ranks"].push_back({{"rays", work.rays},
                                    {"matrix_entries", work.entries},

@@ -30,6 +30,13 @@ struct RankFigures {
     std::uint64_t bytes_peak;
 };
 
+/// What is known of a layer of light (--layers).
+struct LayerFigures {
+    std::string name;
+    Vec3 emitted;     ///< by its lamps [W]
+    double error = 0; ///< relative, of the layer by itself; NaN where it is not known
+};
+
 struct Statistics {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); ///< JSON: null
 
@@ -79,6 +86,9 @@ struct Statistics {
     /// The emitted power of suns and skies, whose light mostly passes the scene by, and the power
     /// that all other surfaces reflect [W]. Both are in the JSON where there are suns or skies.
     double emitted_far = 0, reflected = 0;
+    std::vector<LayerFigures> layers; ///< in the JSON where there are any, with what they took
+    double seconds_layers = 0;
+    std::uint64_t rays_layers = 0;
     std::vector<LeftOut> left_out;
     /// The figures of each rank, where there are several.
     std::vector<RankFigures> ranks = {};

@@ -2,7 +2,6 @@
 
 #include "geometry/frame.h"
 #include "io/files/atomic_file.h"
-#include "io/results/csv.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
@@ -44,9 +43,9 @@ class PatchRows {
   public:
     PatchRows(const Mesh& mesh, std::span<const Vec3> radiosity,
               std::span<const Vec3> standard_error, std::span<const Slope> slope,
-              std::span<const double> weight)
+              std::span<const double> weight, const csv::MoreColumns& more)
         : mesh_(mesh), radiosity_(radiosity), standard_error_(standard_error), slope_(slope),
-          weight_(weight) {
+          weight_(weight), more_(more) {
         for (const Material& m : mesh.scene().materials) {
             csv::append_text(material_.emplace_back(","), m.name);
             std::string& text = colours_.emplace_back();
@@ -84,6 +83,7 @@ class PatchRows {
         }
         if (!weight_.empty())
             add(text, weight_[i]);
+        csv::append_fields(text, more_, i);
         text += '\n';
     }
 
@@ -92,6 +92,7 @@ class PatchRows {
     std::span<const Vec3> radiosity_, standard_error_;
     std::span<const Slope> slope_;
     std::span<const double> weight_;
+    const csv::MoreColumns& more_;
     std::vector<std::string> material_, colours_, group_;
 };
 
@@ -99,17 +100,19 @@ class PatchRows {
 
 void write_patch_table(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
                        std::span<const Vec3> standard_error, const Workers& workers,
-                       std::span<const Slope> slope, std::span<const double> weight) {
+                       std::span<const Slope> slope, std::span<const double> weight,
+                       const csv::MoreColumns& more) {
     const std::size_t rows = mesh.patches().size();
     assert(radiosity.size() == rows);
     assert(standard_error.empty() || standard_error.size() == rows);
-    const PatchRows table(mesh, radiosity, standard_error, slope, weight);
+    const PatchRows table(mesh, radiosity, standard_error, slope, weight, more);
     AtomicFile file(path);
     std::string header(patch_header);
     if (!slope.empty())
         header += gradient_header;
     if (!weight.empty())
         header += ",target";
+    csv::append_names(header, more);
     file.write(header + "\n");
     std::array<std::string, texts_at_a_time> texts;
     for (std::size_t first = 0; first < rows; first += texts.size() * rows_per_text) {

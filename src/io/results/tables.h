@@ -3,6 +3,7 @@
 // the log of the steps. Columns are a contract that other tools read; numbers are the shortest text
 // that gives back the same double.
 
+#include "io/results/csv.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/solving/run.h"
 #include "radiosity/paper/solution/solution.h"
@@ -22,10 +23,11 @@ class Mesh;
 /// written as zeros, a NaN as `nan`. The bytes are the same for any number of threads. Where there
 /// are slopes, nine more columns hold the gradient of each channel [W/m2 per m]. The light at x is
 /// that of the patch plus the gradient times (x - centre). Where there are weights
-/// (Solution::weight), a last column `target` holds them. Throws OutputError.
+/// (Solution::weight), a column `target` holds them. `more` follow. Throws OutputError.
 void write_patch_table(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
                        std::span<const Vec3> standard_error, const Workers& workers = Workers(1),
-                       std::span<const Slope> slope = {}, std::span<const double> weight = {});
+                       std::span<const Slope> slope = {}, std::span<const double> weight = {},
+                       const csv::MoreColumns& more = {});
 
 /// The part of a patch table that `solve --reference` needs: one entry per patch, in world units.
 struct PatchTable {

@@ -125,6 +125,17 @@ std::shared_ptr<const Texture> TextureFiles::decode(std::string_view bytes, cons
     return known_[key] = texture;
 }
 
+std::optional<std::string> zlib_decompressed(std::string_view packed, std::size_t size) {
+    constexpr std::size_t most = std::numeric_limits<int>::max();
+    if (packed.size() > most || size > most)
+        return std::nullopt;
+    std::string bytes(size, '\0');
+    const int found = stbi_zlib_decode_buffer(bytes.data(), static_cast<int>(size), packed.data(),
+                                              static_cast<int>(packed.size()));
+    return found >= 0 && static_cast<std::size_t>(found) == size ? std::optional(bytes)
+                                                                 : std::nullopt;
+}
+
 std::shared_ptr<const Texture> TextureFiles::read(const std::string& path) {
     if (const auto texture = known(path))
         return *texture;

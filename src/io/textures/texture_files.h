@@ -15,6 +15,11 @@ namespace hemilux {
 /// Decodes a picture. `place` says for messages where it stands. Throws InputError.
 [[nodiscard]] Texture decode_texture(std::string_view bytes, const std::string& place);
 
+/// Returns the bytes of a zlib stream (RFC 1950); nothing where it is broken or has another number
+/// of them than `size`.
+[[nodiscard]] std::optional<std::string> zlib_decompressed(std::string_view packed,
+                                                           std::size_t size);
+
 class TextureFiles {
   public:
     /// The guard is called before each picture is decoded, with the bytes that all of them take.

@@ -55,8 +55,11 @@ const triple = (array, i) => [array[3 * i], array[3 * i + 1], array[3 * i + 2]];
 
 const reflectanceOf = (run, i) =>
   run.reflectance ? triple(run.reflectance, i) : run.materials[run.material[i]].reflectance;
-const emissionOf = (run, i) =>
-  run.emission ? triple(run.emission, i) : run.materials[run.material[i]].emission;
+function emissionOf(run, i) {
+  const solved = run.emission ? triple(run.emission, i) : run.materials[run.material[i]].emission;
+  const lamp = run.lampSet?.lamps[run.lampSet.of[i]];
+  return lamp ? solved.map((x, k) => x * lamp.factor[k]) : solved;
+}
 const isFar = (run, i) => run.materials[run.material[i]].far;
 
 /** E = (B - emission) / rho by channel; null where a surface that reflects nothing hides it. */

@@ -42,6 +42,11 @@ function showScene(run) {
     describePatch(run, view.selected);
   };
   slider.addEventListener("input", showStep);
+  showLamps(run, () => {
+    run.lights.at(-1).light = run.radiosity;
+    slider.value = slider.max;
+    showStep();
+  });
   at("ramp").style.background = rampGradient();
   at("layer").addEventListener("change", showLayer);
   at("smooth").addEventListener("change", showLayer);
@@ -158,6 +163,7 @@ function showPage(run) {
 /** The data of the page. Its lights are those after steps 1, 2, 4 and so on, and the last one. */
 function readSolved() {
   const run = readRun();
+  run.lampSet = readLamps(run);
   run.lights = [...run.lit_steps.map((step) => ({ step, light: readHalves("light-" + step, run.unit) })),
     { step: run.statistics.steps, light: run.radiosity }];
   return run;

@@ -18,13 +18,17 @@
 // much. It costs 8 bytes per patch and patch that it saw, and twice as many more to solve.
 
 #include "radiosity/engine/stored_transport/page/stored_transport.h"
+#include "radiosity/engine/emitters/direct_light.h"
+#include "radiosity/engine/emitters/point_emitters.h"
 #include "radiosity/engine/form_factors/exchange_matrix.h"
 #include "radiosity/engine/linear/energy_ledger.h"
 #include "radiosity/engine/linear/unsolved_light.h"
 #include "radiosity/engine/saving/solution_state.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/relighting.h"
 #include "radiosity/engine/solving/run.h"
+#include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/engine/solving/transport_figures.h"
 #include "radiosity/engine/stored_transport/batch_light.h"
 #include "radiosity/engine/stored_transport/importance.h"
@@ -34,11 +38,13 @@
 #include "radiosity/engine/stored_transport/stored_rays.h"
 #include "radiosity/engine/stored_transport/transport_errors.h"
 #include "radiosity/engine/stored_transport/transport_system.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/solve_error.h"
 #include "radiosity/paper/solving/check_input.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -55,7 +61,7 @@ constexpr double merging = 3.5;
 /// errors, the plan of its rays.
 constexpr double bytes_per_patch = 1300;
 
-class StoredTransportSolver final : public Solver {
+class StoredTransportSolver final : public Solver, public Relighting {
   public:
     explicit StoredTransportSolver(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
@@ -109,6 +115,9 @@ class StoredTransportSolver final : public Solver {
             throw StateError("steps were done without a plan");
     }
 
+    [[nodiscard]] std::optional<Relit> light_of(const Mesh& mesh, double share,
+                                                const Workers& workers) const override;
+
   private:
     static RayPlan first_plan(const SolverInput& input, bool shadow_rays) {
         const double each = input.options.rays / (shadow_rays ? 2 * batches : batches);
@@ -129,8 +138,8 @@ class StoredTransportSolver final : public Solver {
         const double error = solution_.steps > 0 ? estimated_error(input_.mesh, solution_)
                                                  : std::numeric_limits<double>::quiet_NaN();
         std::vector<BatchLight::Light> found = light_.solved();
-        const TransportSystem::Solved solved =
-            system_.solve(rays_, error, found, workers_, input_.monitor.interrupted);
+        const TransportSystem::Solved solved = system_.solve(
+            rays_.counts(), rays_.direct(), error, found, workers_, input_.monitor.interrupted);
         if (input_.monitor.interrupted)
             return false;
         planned_ = false;
@@ -261,6 +270,47 @@ class StoredTransportSolver final : public Solver {
     std::uint64_t traced_ = 0,
                   traced_before_ = 0; ///< rays in all, and when the last step was planned
 };
+
+/// The solution of the batches' rays for other emitters, with the spread of the batches.
+std::optional<Relit> StoredTransportSolver::light_of(const Mesh& mesh, double share,
+                                                     const Workers& workers) const {
+    const StopFlag& interrupted = input_.monitor.interrupted;
+    std::vector<std::uint32_t> emitters, samples;
+    const auto material_of = [](const Mesh& of, std::uint32_t patch) {
+        return of.scene().facets[of.patches()[patch].facet].material;
+    };
+    for (const std::uint32_t emitter : rays_.emitters()) // all of a facet or none
+        if (material_of(mesh, emitter) == material_of(input_.mesh, emitter))
+            emitters.push_back(emitter);
+    constexpr double least = 4;
+    for (const std::uint32_t planned : plan_.rays().to_emitters)
+        samples.push_back(planned > 0 ? std::uint32_t(std::ceil(std::max(share * planned, least)))
+                                      : 0);
+    std::vector<std::uint64_t> seeds;
+    for (std::uint64_t s = 0; s < batches; ++s)
+        seeds.push_back(hash_words({input_.options.seed, s, light_.generation(), 2}));
+    DirectLight shadow_rays(mesh, input_.tracer, input_.needs, emitters, std::move(seeds),
+                            ranks_of(interrupted));
+    shadow_rays.sample_up_to(samples, workers, input_.monitor);
+    const TransportSystem system(mesh, emitters, input_.needs.closed,
+                                 power_of_points(mesh, input_.tracer));
+    BatchLight light(mesh.patches().size());
+    (void)system.solve(rays_.counts(), shadow_rays, std::numeric_limits<double>::quiet_NaN(),
+                       light.solved(), workers, interrupted);
+    if (interrupted)
+        return std::nullopt;
+    Relit relit;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+        Vec3 squares(0.0);
+        for (const Vec3& off : light.deviations(i))
+            squares += off * off;
+        const Vec3& reflectance = system.reflectance()[i];
+        relit.radiosity.push_back(system.emission()[i] + reflectance * light.incident(batches, i));
+        relit.standard_error.push_back(reflectance *
+                                       glm::sqrt(squares / double(batches * (batches - 1))));
+    }
+    return relit;
+}
 
 } // namespace
 

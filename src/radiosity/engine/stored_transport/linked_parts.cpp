@@ -1,41 +1,23 @@
 #include "radiosity/engine/stored_transport/linked_parts.h"
 
+#include "geometry/disjoint_sets.h"
 #include "radiosity/engine/form_factors/exchange_matrix.h"
 #include "radiosity/engine/form_factors/ray_counts.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace hemilux {
 namespace {
 
-/// Disjoint sets, each named by its least member (Galler and Fischer 1964; path halving).
-class DisjointSets {
-  public:
-    explicit DisjointSets(std::size_t n) : parent_(n) {
-        std::iota(parent_.begin(), parent_.end(), 0u);
+/// Numbers the sets in the order of their least members.
+LinkedParts parts_of(DisjointSets& sets, std::uint32_t patches) {
+    LinkedParts parts;
+    for (std::uint32_t i = 0; i < patches; ++i) {
+        const std::uint32_t first = sets.find(i);
+        parts.of.push_back(first == i ? parts.count++ : parts.of[first]);
     }
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_[i] != i)
-            i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::uint32_t i, std::uint32_t j) {
-        const std::uint32_t a = find(i), b = find(j);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-    [[nodiscard]] LinkedParts parts() {
-        LinkedParts parts;
-        for (std::uint32_t i = 0; i < parent_.size(); ++i) {
-            const std::uint32_t first = find(i);
-            parts.of.push_back(first == i ? parts.count++ : parts.of[first]);
-        }
-        return parts;
-    }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
+    return parts;
+}
 
 /// Finds the least name that any rank has for each patch; the patch's owner finds it.
 void take_least(std::vector<std::uint32_t>& names, const OwnBlocks& own) {
@@ -63,7 +45,7 @@ LinkedParts parts_of_all(DisjointSets& sets, const OwnBlocks& own, std::uint32_t
         }
         differ = own.ranks().any(differ);
     }
-    return sets.parts();
+    return parts_of(sets, patches);
 }
 
 } // namespace

@@ -1,9 +1,9 @@
 #include "radiosity/engine/stored_transport/transport_system.h"
 
 #include "radiosity/engine/emitters/direct_light.h"
+#include "radiosity/engine/form_factors/ray_counts.h"
 #include "radiosity/engine/linear/conjugate_gradients.h"
 #include "radiosity/engine/linear/unsolved_light.h"
-#include "radiosity/engine/stored_transport/stored_rays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,18 +55,19 @@ TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t
 }
 
 /// Solves each batch by itself; then the whole by all threads, from where the batches' mean is.
-TransportSystem::Solved TransportSystem::solve(const StoredRays& rays, double error,
+TransportSystem::Solved TransportSystem::solve(std::span<const RayCounts> counts,
+                                               const DirectLight& shadow_rays, double error,
                                                std::vector<BatchLight::Light>& light,
                                                const Workers& workers,
                                                const StopFlag& interrupted) const {
-    const std::size_t batches = rays.counts().size();
+    const std::size_t batches = counts.size();
     std::vector<ExchangeMatrix> parts(batches);
     std::vector<std::vector<Vec3>> direct(batches);
     std::vector<Vec3> power(batches);
-    const Ranks& ranks = rays.counts()[0].own_rows().ranks();
+    const Ranks& ranks = counts[0].own_rows().ranks();
     for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
-        parts[batch] = ExchangeMatrix(surfaces_.area, rays.counts()[batch], own);
-        direct[batch] = straight_light(parts[batch], rays.direct(), batch, own);
+        parts[batch] = ExchangeMatrix(surfaces_.area, counts[batch], own);
+        direct[batch] = straight_light(parts[batch], shadow_rays, batch, own);
         power[batch] = power_arriving(transport(parts[batch]), direct[batch]);
     });
     const Vec3 variance = sample_variance(power);
@@ -76,14 +77,14 @@ TransportSystem::Solved TransportSystem::solve(const StoredRays& rays, double er
     std::vector<double> left(batches + 1); // residuals that are too large
     for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
         left[batch] = solve(parts[batch], std::move(direct[batch]), variance,
-                            light_of_points(rays.direct(), batch, area().size()), light[batch], own,
+                            light_of_points(shadow_rays, batch, area().size()), light[batch], own,
                             residual, interrupted);
     });
     ExchangeMatrix all(std::move(parts), workers);
     const double tolerance = left_of_all * average(light) * lost_at_least_;
     left[batches] =
-        solve(all, straight_light(all, rays.direct(), std::nullopt, workers),
-              variance / double(batches), light_of_points(rays.direct(), {}, area().size()),
+        solve(all, straight_light(all, shadow_rays, std::nullopt, workers),
+              variance / double(batches), light_of_points(shadow_rays, {}, area().size()),
               light[batches], workers, std::max(tolerance, min_residual), interrupted);
     const double max_left = *std::ranges::max_element(left);
     const double unsolved = max_left > 0 ? unsolved_error(max_left, lost_at_least_) : 0;

@@ -19,7 +19,7 @@
 namespace hemilux {
 
 class DirectLight;
-class StoredRays;
+class RayCounts;
 
 /// Calls body(batch, workers) for each batch: by a thread of its own, or one after the other where
 /// ranks solve each together.
@@ -58,12 +58,13 @@ class TransportSystem {
         /// ended at their limit [-], which may be infinite; else 0 (unsolved_light.h).
         double unsolved = 0;
     };
-    /// Solves for `light`, of each batch and at last of all, as exactly as the noise of these rays
-    /// allows. It starts from what `light` holds. `error` is the relative one of what is known so
-    /// far; nan where it is unknown. Where solving is interrupted `light` is of no use.
-    [[nodiscard]] Solved solve(const StoredRays& rays, double error,
-                               std::vector<BatchLight::Light>& light, const Workers& workers,
-                               const StopFlag& interrupted) const;
+    /// Solves for `light`, of each batch of `counts` and of the estimates of `shadow_rays`, and at
+    /// last of all, as exactly as the noise of these rays allows. It starts from what `light`
+    /// holds. `error` is the relative one of what is known so far; nan where it is unknown. Where
+    /// solving is interrupted `light` is of no use.
+    [[nodiscard]] Solved solve(std::span<const RayCounts> counts, const DirectLight& shadow_rays,
+                               double error, std::vector<BatchLight::Light>& light,
+                               const Workers& workers, const StopFlag& interrupted) const;
 
   private:
     /// Solves for one batch or for all. `direct` is the light that comes straight from emitting

@@ -109,6 +109,13 @@ void Mesh::vary_colours(std::shared_ptr<VaryingColours> colours) {
     find_colours();
 }
 
+void Mesh::recolour(Scene scene) {
+    scene_ = std::move(scene);
+    for (Patch& patch : patches_)
+        patch.colours = patch.material = scene_.facets[patch.facet].material;
+    find_colours();
+}
+
 Frame Mesh::hemisphere_frame(std::uint32_t patch) const {
     return hemisphere_frame(patch, hemisphere_turn(patch));
 }

@@ -95,6 +95,10 @@ class Mesh {
     /// Gives the patches other colours.
     void vary_colours(std::shared_ptr<VaryingColours> colours);
 
+    /// Gives the scene other materials, colours and lights: those of `scene`, whose facets and
+    /// vertices are the same but for their materials.
+    void recolour(Scene scene);
+
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const LocalFrame& frame() const { return facets_.frame; }
     [[nodiscard]] std::span<const Patch> patches() const { return patches_; }

@@ -1,0 +1,280 @@
+#include "app/lamps/lamp_light.h"
+
+#include "app/division/whole_error.h"
+#include "app/settings/exit_code.h"
+#include "app/settings/names.h"
+#include "app/settings/text.h"
+#include "app/terminal/log.h"
+#include "app/terminal/stage.h"
+#include "app/terminal/stopwatch.h"
+#include "io/files/error.h"
+#include "parallel/ranks.h"
+#include "parallel/workers.h"
+#include "radiosity/engine/solving/shared_stop.h"
+#include "radiosity/paper/rays/shot.h"
+#include "radiosity/paper/scene/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+constexpr std::size_t max_layers = 64;
+
+/// A layer is gathered to this relative error of its own at the most, however faint it is.
+constexpr double max_layer_error = .1;
+
+/// Returns the sum over patches of area and squared reflected light, and of squared errors.
+std::pair<double, double> squares_of(const Mesh& mesh, const Relit& light) {
+    double reflected = 0, errors = 0;
+    for (std::uint32_t i = 0; i < light.radiosity.size(); ++i) {
+        const Vec3 own = light.radiosity[i] - mesh.material(i).emission;
+        reflected += mesh.patches()[i].area * glm::dot(own, own);
+        errors +=
+            mesh.patches()[i].area * glm::dot(light.standard_error[i], light.standard_error[i]);
+    }
+    return {reflected, errors};
+}
+
+/// Returns the solution of a layer.
+Solution solution_of(const Solution& whole, const Relit& layer) {
+    Solution own = whole;
+    own.radiosity = layer.radiosity;
+    own.standard_error = layer.standard_error;
+    own.slope = layer.slope;
+    own.variance.reset();
+    return own;
+}
+
+/// Makes the parts of all layers add up to the whole.
+class Shares {
+  public:
+    explicit Shares(const LampLayers& lamps) : lamps_(lamps) {
+        for (const LampLayer& layer : lamps.layers)
+            all_ += layer.power;
+    }
+    /// part(layer) is one of the layers' colours.
+    template <class Colour, class Part>
+    void add_up(const Colour& whole, const Part& part) const {
+        const std::size_t layers = lamps_.layers.size();
+        for (int c = 0; c < 3; ++c) {
+            double sum = 0;
+            for (std::size_t k = 0; k < layers; ++k)
+                sum += double(part(k)[c]);
+            for (std::size_t k = 0; k < layers; ++k) {
+                auto& own = part(k)[c];
+                const double share = sum > 0       ? double(own) / sum
+                                     : all_[c] > 0 ? lamps_.layers[k].power[c] / all_[c]
+                                                   : 0;
+                own = static_cast<std::remove_reference_t<decltype(own)>>(share * double(whole[c]));
+            }
+        }
+    }
+
+  private:
+    const LampLayers& lamps_;
+    Vec3 all_{0.0};
+};
+
+void add_up(const Shares& shares, const std::optional<Image>& whole,
+            std::optional<Image> GatheredLamp::*part, std::vector<GatheredLamp>& lamps) {
+    if (!whole || std::ranges::any_of(lamps, [&](const auto& lamp) { return !(lamp.*part); })) {
+        for (GatheredLamp& lamp : lamps)
+            (lamp.*part).reset();
+        return;
+    }
+    for (std::size_t pixel = 0; pixel < whole->pixels.size(); ++pixel)
+        shares.add_up(whole->pixels[pixel],
+                      [&](std::size_t k) -> glm::vec3& { return (lamps[k].*part)->pixels[pixel]; });
+}
+
+void add_up(const Shares& shares, const LightAtPoints& whole, std::vector<GatheredLamp>& lamps) {
+    const std::size_t points = whole.lights.size();
+    for (GatheredLamp& lamp : lamps)
+        lamp.points.resize(points);
+    for (std::size_t point = 0; point < points; ++point)
+        shares.add_up(whole.lights[point].irradiance,
+                      [&](std::size_t k) -> Vec3& { return lamps[k].points[point].irradiance; });
+}
+
+class Layers {
+  public:
+    Layers(const SolveSettings& settings, const LitRun& run, Monitor& monitor,
+           Statistics& statistics)
+        : settings_(settings), run_(run), monitor_(monitor), statistics_(statistics),
+          workers_(settings.options.threads) {
+        found_.lamps = find_lamp_layers(run.scene.mesh, *settings.layers);
+        for (const LampLayer& layer : found_.lamps.layers)
+            all_power_ += mean_of_channels(layer.power);
+    }
+
+    /// Returns whether it came to the end before a signal.
+    [[nodiscard]] bool find_patches(const Relighting& rays);
+    [[nodiscard]] bool gather();
+    [[nodiscard]] LampLight result() { return std::move(found_); }
+
+  private:
+    [[nodiscard]] double error_of(std::size_t layer, double all_squares) const;
+
+    const SolveSettings& settings_;
+    const LitRun& run_;
+    Monitor& monitor_;
+    Statistics& statistics_;
+    Workers workers_;
+    LampLight found_;
+    double all_power_ = 0;
+};
+
+bool Layers::find_patches(const Relighting& rays) {
+    const Mesh& mesh = run_.scene.mesh;
+    for (std::uint32_t k = 0; k < found_.lamps.layers.size(); ++k) {
+        const LampLayer& layer = found_.lamps.layers[k];
+        const std::uint64_t before = monitor_.rays;
+        std::optional<Relit> light =
+            rays.light_of(lit_by_layer(mesh, found_.lamps, k),
+                          mean_of_channels(layer.power) / all_power_, workers_);
+        if (!light)
+            return false;
+        statistics_.rays_layers += monitor_.rays - before;
+        found_.patches.push_back(std::move(*light));
+    }
+    share_whole(mesh, run_.solution, found_);
+    for (std::uint32_t k = 0; k < found_.lamps.layers.size(); ++k) {
+        const auto [reflected, errors] =
+            squares_of(lit_by_layer(mesh, found_.lamps, k), found_.patches[k]);
+        const LampLayer& layer = found_.lamps.layers[k];
+        statistics_.layers.push_back(
+            {layer.name, layer.power,
+             reflected > 0 ? std::sqrt(errors / reflected) : Statistics::unknown});
+    }
+    return true;
+}
+
+/// Returns the relative error to which a layer is gathered: all of them together are then as exact
+/// as the whole was asked to be.
+double Layers::error_of(std::size_t layer, double all_squares) const {
+    const double own = squares_of(run_.scene.mesh, found_.patches[layer]).first;
+    const double asked = error_of_gathered(settings_);
+    const double shared = asked / std::sqrt(double(found_.patches.size()));
+    return std::clamp(own > 0 ? shared * std::sqrt(all_squares / own) : 1, asked,
+                      std::max(asked, max_layer_error));
+}
+
+bool Layers::gather() {
+    const auto& [scene, solver, solution, gathered, points, camera, lightmap] = run_;
+    found_.gathered.resize(found_.patches.size());
+    if (!gathered.cache)
+        return true;
+    if (found_.patches.size() == 1) {
+        found_.gathered[0] = {gathered.points.lights, gathered.picture, gathered.lightmap};
+        statistics_.layers[0].error = gathered.error;
+        return true;
+    }
+    SolveSettings settings = settings_;
+    settings.verbosity = Verbosity::quiet;
+    settings.error_accuracy = 0;
+    std::erase_if(settings.outputs, [](const Output& output) { // they have no layers
+        return is_picture(output.kind) && output.kind != OutputKind::exr;
+    });
+    if (!gathers(settings))
+        return true;
+    const double all_squares =
+        squares_of(scene.mesh, {solution.radiosity, solution.standard_error, {}}).first;
+    for (std::uint32_t k = 0; k < found_.patches.size(); ++k) {
+        const Mesh lit = lit_by_layer(scene.mesh, found_.lamps, k);
+        const Solution own = solution_of(solution, found_.patches[k]);
+        settings.stop.error = error_of(k, all_squares);
+        Statistics statistics;
+        GatheredLight light =
+            gather_light(settings, {lit, scene.tracer, own.radiosity, scene.threads}, own, points,
+                         camera, lightmap, monitor_, statistics);
+        if (monitor_.interrupted)
+            return false;
+        statistics_.rays_layers += statistics.rays_learn + statistics.rays_gather;
+        statistics_.layers[k].error = light.error;
+        found_.gathered[k] = {std::move(light.points.lights), std::move(light.picture),
+                              std::move(light.lightmap)};
+    }
+    const Shares shares(found_.lamps);
+    add_up(shares, gathered.points, found_.gathered);
+    add_up(shares, gathered.picture, &GatheredLamp::picture, found_.gathered);
+    add_up(shares, gathered.lightmap, &GatheredLamp::lightmap, found_.gathered);
+    return true;
+}
+
+std::string errors_text(const std::vector<LayerFigures>& layers) {
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (const LayerFigures& layer : layers)
+        if (std::isfinite(layer.error)) {
+            least = std::min(least, layer.error);
+            most = std::max(most, layer.error);
+        }
+    std::string text = counted(layers.size(), "layer", "layers") + " of light, by " +
+                       (layers.size() > 1 ? "lamps apart" : "its lamp");
+    if (most > 0)
+        text += "; the error of each by itself is " +
+                (least == most ? percent(most) : percent(least) + " to " + percent(most));
+    return text;
+}
+
+} // namespace
+
+void check_layers(const SolveSettings& settings) {
+    if (!settings.layers)
+        return;
+    if (settings.method != &method_of(Role::standard) || settings.plain)
+        throw UsageError("--layers: only --method " + std::string(method_of(Role::standard).name) +
+                         " keeps the rays that other lamps would take, and not with --plain");
+}
+
+void check_layers(const SolveSettings& settings, const Mesh& mesh) {
+    if (!settings.layers)
+        return;
+    const std::size_t layers = find_lamp_layers(mesh, *settings.layers).layers.size();
+    if (layers == 0)
+        throw InputError(settings.scene.path, "nothing emits light; --layers has nothing to show");
+    if (layers > max_layers)
+        throw UsageError("--layers: " + grouped(layers) + " are more than " + grouped(max_layers) +
+                         "; --layers material and --layers group join lamps");
+}
+
+LampLight find_lamp_light(const SolveSettings& settings, const LitRun& run, Monitor& monitor,
+                          Statistics& statistics) {
+    if (!settings.layers)
+        return {};
+    const Stage stage("lighting by each lamp", settings.verbosity);
+    const Stopwatch watch;
+    const auto* const rays = dynamic_cast<const Relighting*>(&run.solver);
+    Layers layers(settings, run, monitor, statistics);
+    if (!rays || run.solver.solution().steps == 0 || monitor.interrupted ||
+        !layers.find_patches(*rays) || (settings.ranks->is_first() && !layers.gather())) {
+        statistics.layers.clear();
+        log_line(settings.verbosity, Verbosity::quiet,
+                 "interrupted; the outputs hold the light of all lamps together");
+        return {};
+    }
+    statistics.seconds_layers = watch.seconds();
+    log_line(settings.verbosity, Verbosity::normal, errors_text(statistics.layers));
+    return layers.result();
+}
+
+std::vector<std::string> channel_names(const LampLayers& lamps) {
+    constexpr std::size_t most = 31 - 2; // a dot and a letter follow
+    std::set<std::string> taken;
+    std::vector<std::string> names;
+    for (const LampLayer& layer : lamps.layers) {
+        std::string name = layer.name.substr(0, most);
+        for (unsigned number = 2; !taken.insert(name).second; ++number) {
+            const std::string end = " " + std::to_string(number);
+            name = layer.name.substr(0, most - end.size()) + end;
+        }
+        names.push_back(std::move(name));
+    }
+    return names;
+}
+
+} // namespace hemilux
