@@ -79,6 +79,24 @@
   slider.value = 0;
   slider.dispatchEvent(new Event("input"));
 
+  check("there are sliders of lamps where these are apart", document.getElementById("lamps").hidden === !run.lamps);
+  if (run.lamps) {
+    const [power, colour] = document.querySelectorAll("#lamps input"), solved = run.radiosity;
+    const set = (input, value) => { input.value = value; input.dispatchEvent(new Event("input")); };
+    const lit = pixels(), { lamps } = run.lampSet;
+    check("the light of lamps adds up to that of all", solved.every((x, i) =>
+      Math.abs(lamps.reduce((sum, lamp) => sum + lamp.radiosity[i], 0) - x) <= 2e-3 * x + 1e-6));
+    set(power, 0);
+    check("a lamp of power 0 leaves the light of the others", run.radiosity.every((x, i) =>
+      Math.abs(x - lamps[1].radiosity[i]) <= 1e-4 * x) && brightness(pixels()) < brightness(lit));
+    set(power, 2);
+    check("one of power 2 brightens", brightness(pixels()) > brightness(lit));
+    set(colour, "#ff0000");
+    check("a red lamp has no green light", lamps[0].factor[0] === 2 && lamps[0].factor[1] === 0);
+    document.querySelector("#lamps button").click();
+    check("'As solved' gives the light that was solved for", run.radiosity === solved && !differ(lit, pixels()));
+  }
+
   const steps = document.getElementById("slider");
   check("steps before the last are kept", run.lit_steps.every((step, k) => step === 2 ** k) && (run.steps.length < 2 || run.lit_steps.length > 0));
   check("there is a slider of steps where there are some", document.getElementById("step-label").hidden === (run.lit_steps.length === 0));

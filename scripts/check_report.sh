@@ -59,6 +59,8 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) column[$k] = k; next }
     END { printf "window.expectedFactors = ["; for (i in most) printf "[%d,%d,%s],", i, to[i], most[i]; print "];" }' \
     factors.csv >factors.js
 "$hemilux" solve -t 1 "$root/examples/scenes/room_1002.obj" -q --steps 3 --sky 1 --report "$folder/sky.html"
+"$hemilux" solve -t 1 "$root/examples/scenes/room_1002.obj" -q --steps 3 --layers lamp \
+    --light 'disc at 2,2.2,2 towards 0,-1,0 radius .2 emission 20,60,90' --report "$folder/lamps.html"
 compare="compare -t 1 -q -o compared --runs 2 --rays 10 --reference-error .05"
 "$hemilux" $compare "$root/examples/scenes/office_3576.obj" --methods hemisphere,stratified,stored-transport \
     --budget-rays 1e6 --report "$folder/compared.html" >/dev/null
@@ -66,7 +68,7 @@ compare="compare -t 1 -q -o compared --runs 2 --rays 10 --reference-error .05"
     --report "$folder/compared-hostile.html" >/dev/null
 
 status=0
-for page in office divided hemisphere hostile sky compared compared-hostile; do
+for page in office divided hemisphere hostile sky lamps compared compared-hostile; do
     [ "$(wc -c <"$folder/$page.html")" -lt 3000000 ] || { echo "FAILS: $page is too large"; status=1; }
     case $page in compared*) check=check_comparison.js ;; *) check=check_report.js ;; esac
     sed '/^<\/body>/,$d' "$folder/$page.html" >checked.html

@@ -118,7 +118,7 @@ class Layers {
     [[nodiscard]] LampLight result() { return std::move(found_); }
 
   private:
-    [[nodiscard]] double error_of(std::size_t layer, double all_squares) const;
+    [[nodiscard]] double error_of(double squares, double all_squares) const;
 
     const SolveSettings& settings_;
     const LitRun& run_;
@@ -156,11 +156,10 @@ bool Layers::find_patches(const Relighting& rays) {
 
 /// Returns the relative error to which a layer is gathered: all of them together are then as exact
 /// as the whole was asked to be.
-double Layers::error_of(std::size_t layer, double all_squares) const {
-    const double own = squares_of(run_.scene.mesh, found_.patches[layer]).first;
+double Layers::error_of(double squares, double all_squares) const {
     const double asked = error_of_gathered(settings_);
     const double shared = asked / std::sqrt(double(found_.patches.size()));
-    return std::clamp(own > 0 ? shared * std::sqrt(all_squares / own) : 1, asked,
+    return std::clamp(squares > 0 ? shared * std::sqrt(all_squares / squares) : 1, asked,
                       std::max(asked, max_layer_error));
 }
 
@@ -187,7 +186,7 @@ bool Layers::gather() {
     for (std::uint32_t k = 0; k < found_.patches.size(); ++k) {
         const Mesh lit = lit_by_layer(scene.mesh, found_.lamps, k);
         const Solution own = solution_of(solution, found_.patches[k]);
-        settings.stop.error = error_of(k, all_squares);
+        settings.stop.error = error_of(squares_of(lit, found_.patches[k]).first, all_squares);
         Statistics statistics;
         GatheredLight light =
             gather_light(settings, {lit, scene.tracer, own.radiosity, scene.threads}, own, points,

@@ -2,12 +2,16 @@
 
 #include "app/check_fails.h"
 #include "app/program.h"
+#include "app/report/read_report.h"
 #include "app/split.h"
 #include "app/statistics_file.h"
 #include "io/pictures/exr_reader.h"
 #include "support/catch.h"
 
+#include <glm/gtc/packing.hpp>
+
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -62,6 +66,13 @@ void check_sum(const Table& table, const std::string& whole) {
         for (const std::string channel : {"r", "g", "b"})
             CHECK(table.number(row, "lamp." + channel) + table.number(row, "desk." + channel) ==
                   Approx(table.number(row, whole + "_" + channel)).epsilon(1e-12).margin(1e-12));
+}
+
+/// The green light of a row of three halves.
+double green_of(const std::string& bytes, std::size_t row) {
+    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(bytes[k]); };
+    const std::size_t at = 6 * row + 2;
+    return double(glm::unpackHalf1x16(std::uint16_t(byte(at) | byte(at + 1) << 8)));
 }
 
 double largest_difference(const hemilux::Image& a, const hemilux::Image& b) {
@@ -183,6 +194,28 @@ TEST_CASE("dim finds the powers for wished light at points") {
     CHECK(std::stod(rows[2][2]) > 0);
     CHECK(Table(place.read("q.csv")).number(1, "irradiance_g") ==
           Approx(2 * points.number(1, "lamp.g") + .25 * points.number(1, "desk.g")).epsilon(1e-3));
+}
+
+TEST_CASE("a report has the light of each lamp, and which lamp patches are of") {
+    const Workplace place;
+    write_two_lamps(place);
+    REQUIRE(place.hemilux(solve + "--divide none --report r.html -o a.csv").code == 0);
+    const std::string page = place.read("r.html");
+    const auto run = nlohmann::json::parse(element_of(page, "run"));
+    CHECK(run["lamps"] == nlohmann::json{"lamp", "desk"});
+    const auto unit = run["lamp_unit"].get<double>();
+    const Table table(place.read("a.csv"));
+    for (const std::size_t lamp : {0u, 1u}) {
+        const std::string bytes = from_base64(element_of(page, "lamp-" + std::to_string(lamp)));
+        REQUIRE(bytes.size() == 6 * table.rows());
+        const std::string name = lamp == 0 ? "lamp" : "desk";
+        for (std::size_t row = 0; row < table.rows(); ++row)
+            CHECK(unit * green_of(bytes, row) ==
+                  Approx(table.number(row, name + ".g")).epsilon(1e-3).margin(1e-6));
+    }
+    const auto of = words_of(page, "lamp-of");
+    CHECK(of.back() == 1);
+    CHECK(of.front() == 0xffffffffu);
 }
 
 TEST_CASE("what dim and --layers cannot do is refused with a word") {

@@ -144,19 +144,30 @@ class ActiveSets {
         }
     }
 
-    /// With G the inverse of the normal matrix times the light of each place, the factors change by
-    /// -G (sum over lamps of f_k dE_pk).
+    /// With N the inverse of the normal matrix, E_p the light at place p and r_p what is left of
+    /// its wish, a change dE_pk changes the factors by (N_k r_p - N E_p f_k) dE_pk.
     [[nodiscard]] std::vector<double> errors() {
-        std::vector<double> squares(factor_.size());
+        const std::size_t lamps = factor_.size();
+        std::vector<double> squares(lamps);
         if (used_.empty() || !normal_.factor(used_))
             return squares;
+        std::vector<std::vector<double>> inverse(lamps);
+        for (const std::size_t k : used_) {
+            std::vector<double> unit(lamps);
+            unit[k] = 1;
+            inverse[k] = normal_.solve(unit);
+        }
         for (const WishedPlace& place : places_) {
             const std::vector<double> response = normal_.solve(place.brought);
-            double variance = 0;
-            for (std::size_t k = 0; k < factor_.size(); ++k)
-                variance += factor_[k] * factor_[k] * place.error[k] * place.error[k];
-            for (const std::size_t i : used_)
-                squares[i] += response[i] * response[i] * variance;
+            double left = place.wish;
+            for (const std::size_t k : used_)
+                left -= factor_[k] * place.brought[k];
+            for (const std::size_t k : used_)
+                for (const std::size_t i : used_) {
+                    const double change =
+                        place.error[k] * (inverse[k][i] * left - response[i] * factor_[k]);
+                    squares[i] += change * change;
+                }
         }
         for (double& square : squares)
             square = std::sqrt(square);

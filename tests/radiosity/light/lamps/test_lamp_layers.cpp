@@ -19,14 +19,15 @@ void add_lamp(Scene& scene, double x, double z, double half, std::uint32_t mater
               std::uint32_t group) {
     constexpr double y = .99;
     test::add_quad(scene, {x - half, y, z - half}, {x + half, y, z - half}, {x + half, y, z + half},
-                   {x - half, y, z + half}, 1, material, group);
+                   {x - half, y, z + half}, 1, 1, material);
+    scene.facets.back().group = group;
 }
 
 /// A room with three lamps of two materials in one group, another in a group of its own, and a
 /// large glowing wall panel.
 Scene room_of_lamps() {
-    Scene scene = test::box_room({0, 0, 0}, {2, 1, 2}, 6, {{"wall", Vec3(.5), Vec3(0)}},
-                                 {0, 0, 0, 0, 0, 0});
+    Scene scene =
+        test::box_room({0, 0, 0}, {2, 1, 2}, 6, {{"wall", Vec3(.5), Vec3(0)}}, {0, 0, 0, 0, 0, 0});
     const auto first = static_cast<std::uint32_t>(scene.materials.size());
     scene.materials.push_back({"warm", Vec3(0), Vec3(30, 20, 10)});
     scene.materials.push_back({"cold", Vec3(.2), Vec3(5, 10, 40)});
@@ -38,8 +39,9 @@ Scene room_of_lamps() {
     add_lamp(scene, 1.5, .4, .1, first, groups - 2);
     add_lamp(scene, .4, 1.5, .05, first + 1, groups - 2);
     add_lamp(scene, 1.5, 1.5, .1, first + 1, groups - 1);
-    test::add_quad(scene, {.01, .1, .2}, {.01, .9, .2}, {.01, .9, 1.8}, {.01, .1, 1.8}, 1,
-                   first + 2, groups - 1);
+    test::add_quad(scene, {.01, .1, .2}, {.01, .9, .2}, {.01, .9, 1.8}, {.01, .1, 1.8}, 1, 1,
+                   first + 2);
+    scene.facets.back().group = groups - 1;
     add_point_emitter(scene,
                       {.name = "bulb", .position = {1, .5, 1}, .intensity = Vec3(.3, .2, .1)});
     return scene;
