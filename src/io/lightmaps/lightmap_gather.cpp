@@ -49,7 +49,7 @@ GatherGrid grid_of(const TexelMap& texels, const std::vector<bool>& covered,
 /// Returns the irradiance of a place: the share of direct light that arrives is that of its own
 /// shadow rays. An average over texels around, as pictures take, would move shadows by texels.
 Vec3 irradiance_of(const PictureGather::Light& light) {
-    Vec3 irradiance(light.slow.indirect);
+    Vec3 irradiance = Vec3(light.slow.indirect) + light.of_points;
     for (int c = 0; c < 3; ++c)
         if (light.direct.unshadowed[c] > 0)
             irradiance[c] += double(light.slow.unshadowed[c]) *
