@@ -25,6 +25,8 @@ bool matches(std::string_view pattern, std::string_view name) {
 }
 
 void remove_texture(MaterialTextures& textures, Vec3 Material::*quantity) {
+    if (quantity == &Material::emission)
+        textures.tinted = false;
     (quantity == &Material::emission ? textures.emission : textures.reflectance).texture.reset();
 }
 
