@@ -4,11 +4,13 @@
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/gltf/document/uri.h"
+#include "io/gltf/instances.h"
 #include "io/gltf/scene_meshes.h"
 #include "io/lightmaps/chart_regions.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <numeric>
@@ -127,6 +129,37 @@ Triangles LitSource::triangles_of(const PrimitiveOrigin& origin, std::size_t set
     return triangles;
 }
 
+const glm::dmat4& LitSource::to_world(const PrimitiveOrigin& origin) {
+    if (to_world_.empty())
+        for (const Instance& instance : instances_of(document_))
+            if (document_.nodes[instance.node].mesh)
+                for (const Instance& placed : placed_meshes(instance, buffers_))
+                    to_world_[{placed.node, placed.number}] = placed.to_world;
+    return to_world_.at({origin.node, origin.instance});
+}
+
+std::vector<Vec3> LitSource::normals_of(const PrimitiveOrigin& origin) {
+    std::vector<Vec3> normals(origin.vertices, Vec3(0.0));
+    const Index& accessor = primitive_of(origin).normals;
+    if (!accessor)
+        return normals;
+    const Elements elements(buffers_, *accessor);
+    elements.check("VEC3", {Component::int8, Component::int16, Component::float32});
+    const Triangles triangles = triangles_of(origin, 0);
+    const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(to_world(origin))));
+    for (std::size_t k = 0; k < normals.size(); ++k) {
+        const std::size_t v = triangles.vertex[k];
+        if (v >= elements.size())
+            elements.fail("expected as many elements as vertices, found " +
+                          std::to_string(elements.size()));
+        const Vec3 normal = turn * Vec3(elements.at(v, 0), elements.at(v, 1), elements.at(v, 2));
+        const double length = glm::length(normal);
+        if (length > 0 && std::isfinite(length))
+            normals[k] = normal / length;
+    }
+    return normals;
+}
+
 std::size_t LitSource::texcoord_sets() const {
     std::size_t sets = 0;
     for (const PrimitiveOrigin& origin : origins_)
@@ -140,6 +173,32 @@ std::vector<std::uint32_t> facets_by_face(const Mesh& mesh) {
         if (const std::uint32_t face = mesh.scene().facets[f].face; face < by_face.size())
             by_face[face] = f;
     return by_face;
+}
+
+std::vector<CornerNormals> normals_of_file(LitSource& source, const Mesh& mesh) {
+    const Scene& scene = mesh.scene();
+    const std::vector<std::uint32_t> by_face = facets_by_face(mesh);
+    std::vector<CornerNormals> normals(scene.facets.size());
+    for (const PrimitiveOrigin& origin : source.origins()) {
+        const std::vector<Vec3> of_points = source.normals_of(origin);
+        for (std::uint32_t t = 0; t < origin.faces; ++t) {
+            const std::uint32_t f = by_face[origin.first_face + t];
+            if (f == none)
+                continue;
+            std::array<Vec3, 4> of_corners{};
+            Vec3 sum(0.0);
+            bool all = true;
+            for (std::size_t k = 0; k < 4; ++k) {
+                of_corners[k] = of_points[scene.facets[f].vertex[k] - origin.first_vertex];
+                all = all && of_corners[k] != Vec3(0.0);
+                sum += k < 3 ? of_corners[k] : Vec3(0.0);
+            }
+            const double side = glm::dot(sum, mesh.shape_of(f).area_vector()) < 0 ? -1 : 1;
+            for (std::size_t k = 0; all && k < 4; ++k)
+                normals[f][k] = glm::vec3(side * of_corners[k]);
+        }
+    }
+    return normals;
 }
 
 PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh, std::span<const ChartSide> sides,

@@ -6,15 +6,20 @@
 #include "io/gltf/elements.h"
 #include "io/gltf/primitives.h"
 #include "io/lightmaps/chart_regions.h"
+#include "io/lightmaps/smooth_point.h"
 #include "io/lightmaps/texel_map.h"
 #include "io/scene_files/read_result.h"
+
+#include <glm/mat4x4.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hemilux {
@@ -47,6 +52,9 @@ class LitSource {
     [[nodiscard]] const std::vector<std::string>& warnings() const { return reported_; }
     /// Returns the triangles of an origin with texture coordinates of so many sets.
     [[nodiscard]] Triangles triangles_of(const PrimitiveOrigin& origin, std::size_t sets);
+    /// Returns the normals at an origin's points, unit, in the world; zero where the file has none
+    /// that is a direction. Throws InputError for elements of a wrong kind.
+    [[nodiscard]] std::vector<Vec3> normals_of(const PrimitiveOrigin& origin);
     /// Returns the number of the sets that the primitive with most of them has.
     [[nodiscard]] std::size_t texcoord_sets() const;
 
@@ -61,10 +69,17 @@ class LitSource {
     TriangleReader triangles_;
     std::vector<PrimitiveOrigin> origins_;
     std::vector<std::string> pictures_;
+    using Shown = std::pair<std::size_t, std::optional<std::size_t>>; ///< node, number of instance
+    std::map<Shown, glm::dmat4> to_world_; ///< found when normals are first asked for
+    [[nodiscard]] const glm::dmat4& to_world(const PrimitiveOrigin& origin);
 };
 
 /// The facets of the scene by face; none where a face has no area.
 [[nodiscard]] std::vector<std::uint32_t> facets_by_face(const Mesh& mesh);
+
+/// Returns the normals that the file has at the corners of facets, by facet; those of a facet that
+/// looks the other way in the scene are turned around. Throws as LitSource::normals_of().
+[[nodiscard]] std::vector<CornerNormals> normals_of_file(LitSource& source, const Mesh& mesh);
 
 /// The places of triangles in the texture coordinates that a file has.
 struct PlacesOfFile {

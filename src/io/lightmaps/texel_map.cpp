@@ -186,6 +186,34 @@ SurfacePoint TexelMap::point_near(std::size_t texel, const Vec2& place) const {
     return point_of(on, u, v);
 }
 
+void TexelMap::set_normals(std::vector<CornerNormals> normals, const Tracer& tracer) {
+    normals_ = std::move(normals);
+    tracer_ = &tracer;
+}
+
+SurfacePoint TexelMap::receiver_of(const PlacedTriangle& triangle, double u, double v) const {
+    SurfacePoint flat = point_of(triangle, u, v);
+    flat.patch = none;
+    if (normals_.empty() || normals_[triangle.facet] == CornerNormals{})
+        return flat;
+    SmoothTriangle smooth{corners_of(mesh_, triangle), {}};
+    const CornerNormals& of_corners = normals_[triangle.facet];
+    for (std::size_t k = 0; k < 3; ++k)
+        smooth.normal[k] = (triangle.back ? -1.0 : 1.0) *
+                           Vec3(of_corners[triangle.second_half && k > 0 ? k + 1 : k]);
+    return smooth_point(flat, smooth, u, v, *tracer_);
+}
+
+SurfacePoint TexelMap::receiver(std::size_t texel) const {
+    return receiver_of(triangle(texel), texels_[texel].u, texels_[texel].v);
+}
+
+SurfacePoint TexelMap::receiver_near(std::size_t texel, const Vec2& place) const {
+    const PlacedTriangle& on = triangle(texel);
+    const auto [u, v, square] = nearest_place_on(on.place, place);
+    return receiver_of(on, u, v);
+}
+
 double TexelMap::side(std::size_t texel) const {
     const PlacedTriangle& on = triangle(texel);
     const auto [a, b, c] = corners_of(mesh_, on);
