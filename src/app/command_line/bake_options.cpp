@@ -18,6 +18,7 @@ constexpr const char* bake_examples = R"(Examples:
   hemilux bake room.glb -o lit.glb
   hemilux bake room.glb -o lit.glb --lightmap 2048 --error 1%
   hemilux bake room.gltf -o preview.glb --bind unlit
+  hemilux bake room.glb -o ao.glb --bake ao --ao-distance 0.5
 )";
 
 /// The choice of texture coordinates.
@@ -35,22 +36,70 @@ std::optional<CoordinatesChoice> coordinates_from(const std::string& text) {
     return CoordinatesChoice{static_cast<std::size_t>(*set)};
 }
 
+/// What was given of --bake and --bind.
+struct GivenLight {
+    enum class Kind { irradiance, indirect, radiosity, occlusion };
+    std::optional<Kind> kind;
+    std::optional<Binding> binding;
+};
+
 void add_light_options(Command command, SolveSettings& settings,
-                       const std::shared_ptr<std::optional<Bake>>& bake) {
-    add_choice<Bake>(command, "--bake",
-                     {{Bake::irradiance, name_of(Bake::irradiance)},
-                      {Bake::indirect, name_of(Bake::indirect)},
-                      {Bake::radiosity, name_of(Bake::radiosity)}},
+                       const std::shared_ptr<GivenLight>& given) {
+    using Kind = GivenLight::Kind;
+    add_choice<Kind>(command, "--bake",
+                     {{Kind::irradiance, name_of(Bake::irradiance)},
+                      {Kind::indirect, name_of(Bake::indirect)},
+                      {Kind::radiosity, name_of(Bake::radiosity)},
+                      {Kind::occlusion, "ao"}},
                      "the light of texels: irradiance: what arrives, which viewers multiply by "
                      "their materials; indirect: of that what was reflected before, for viewers "
-                     "that light by lamps, too; radiosity: what surfaces send, with their colours "
-                     "[irradiance; radiosity for --bind unlit]",
-                     [bake](Bake value) { *bake = value; });
+                     "that light by lamps, too; radiosity: what surfaces send, with their colours; "
+                     "ao: ambient occlusion, the share of the hemisphere that nothing blocks, for "
+                     "which nothing is solved [irradiance; radiosity for --bind unlit, ao for "
+                     "--bind occlusion]",
+                     [given](Kind value) { given->kind = value; });
+    add_choice<Binding>(
+        command, "--bind",
+        {{Binding::lightmap, "lightmap"},
+         {Binding::unlit, "unlit"},
+         {Binding::occlusion, "occlusion"},
+         {Binding::texture, "texture"}},
+        "how materials refer to the light: lightmap: by MOZ_lightmap; unlit: as an unlit base "
+        "colour that any viewer shows; occlusion: as occlusionTexture, which dims the light from "
+        "all around in viewers; texture: not at all [lightmap; occlusion for --bake ao]",
+        [given](Binding value) { given->binding = value; });
     add_choice(
-        command, "--bind", settings.file_bake.binding,
-        {{Binding::lightmap, "lightmap"}, {Binding::unlit, "unlit"}, {Binding::texture, "texture"}},
-        "how materials refer to the light: lightmap: by MOZ_lightmap; unlit: as an unlit "
-        "base colour that any viewer shows; texture: not at all [lightmap]");
+        command, "--normals", settings.file_bake.smooth, {{false, "facet"}, {true, "smooth"}},
+        "the normals around which texels gather: facet: each facet is flat; smooth: those of "
+        "the file, between the corners of facets, where it has them [facet]");
+    add_number(command, "--ao-distance", "LENGTH", settings.file_bake.occlusion_distance, positive,
+               "the length [m] beyond which nothing blocks, for --bake ao [no bound]");
+}
+
+/// Settles what is baked and how materials refer to it. Throws UsageError where the two contradict
+/// each other.
+void settle_light(const GivenLight& given, SolveSettings& settings) {
+    using Kind = GivenLight::Kind;
+    FileBakeSettings& file = settings.file_bake;
+    const Kind kind = given.kind.value_or(given.binding == Binding::unlit       ? Kind::radiosity
+                                          : given.binding == Binding::occlusion ? Kind::occlusion
+                                                                                : Kind::irradiance);
+    file.occlusion = kind == Kind::occlusion;
+    file.binding = given.binding.value_or(file.occlusion ? Binding::occlusion : Binding::lightmap);
+    settings.bake = kind == Kind::radiosity  ? Bake::radiosity
+                    : kind == Kind::indirect ? Bake::indirect
+                                             : Bake::irradiance;
+    if (file.occlusion && (file.binding == Binding::lightmap || file.binding == Binding::unlit))
+        throw UsageError("--bake ao is no light; it needs --bind occlusion or --bind texture");
+    if (file.binding == Binding::occlusion && !file.occlusion)
+        throw UsageError("--bind occlusion is for --bake ao");
+    if (file.binding == Binding::lightmap && settings.bake == Bake::radiosity)
+        throw UsageError("--bake radiosity has the colours of surfaces in it, which viewers of "
+                         "lightmaps multiply by; add --bind unlit or --bind texture");
+    if (file.binding == Binding::unlit && settings.bake != Bake::radiosity)
+        throw UsageError("--bind unlit shows what surfaces send; it needs --bake radiosity");
+    if (file.occlusion_distance && !file.occlusion)
+        throw UsageError("--ao-distance is for --bake ao");
 }
 
 void add_place_options(Command command, SolveSettings& settings) {
@@ -78,7 +127,7 @@ Command add_bake_command(Arguments& program, SolveSettings& settings) {
     settings.method = &method_of(Role::standard);
     settings.file_bake.asked = true;
     settings.bake = Bake::irradiance;
-    const auto bake = std::make_shared<std::optional<Bake>>();
+    const auto given = std::make_shared<GivenLight>();
     const Command command = program.add_command(
         "bake", "solve a glTF scene, write the same file with its light as a lightmap");
     const Command scene = command.under(scene_group), outputs = command.under(output_group);
@@ -95,22 +144,15 @@ Command add_bake_command(Arguments& program, SolveSettings& settings) {
              })
         .required();
     outputs.add_text("--stats", "FILE", settings.statistics, "statistics of the run as JSON");
-    add_light_options(outputs, settings, bake);
+    add_light_options(outputs, settings, given);
     add_place_options(outputs, settings);
     add_whole<unsigned>(outputs, "--gather", settings.gather, 1, SolveSettings::max_gather,
                         "rays that gather light at a texel, more at edges [16, or as many as "
                         "--error needs]");
     add_exposure_options(outputs, settings.view);
     add_verbosity_options(command, settings.verbosity);
-    command.after_parsing([&settings, bake] {
-        const Binding binding = settings.file_bake.binding;
-        settings.bake =
-            bake->value_or(binding == Binding::unlit ? Bake::radiosity : Bake::irradiance);
-        if (binding == Binding::lightmap && settings.bake == Bake::radiosity)
-            throw UsageError("--bake radiosity has the colours of surfaces in it, which viewers of "
-                             "lightmaps multiply by; add --bind unlit or --bind texture");
-        if (binding == Binding::unlit && settings.bake != Bake::radiosity)
-            throw UsageError("--bind unlit shows what surfaces send; it needs --bake radiosity");
+    command.after_parsing([&settings, given] {
+        settle_light(*given, settings);
         if (!settings.lightmap)
             settings.lightmap = FileBakeSettings::default_size;
     });

@@ -41,9 +41,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <filesystem>
 #include <span>
-#include <system_error>
 
 namespace hemilux {
 
@@ -99,32 +97,10 @@ bool has_pictures(const SolveSettings& settings) {
            !settings.error_map.empty();
 }
 
-/// Returns the bytes of the scene's own file while it is written again: its buffers, their copy and
-/// its JSON.
-double bytes_of_own_file(const SolveSettings& settings) {
-    constexpr double copies = 4;
-    std::error_code error;
-    const auto size = std::filesystem::file_size(settings.scene.path, error);
-    return settings.file_bake.asked && !error ? copies * static_cast<double>(size) : 0;
-}
-
 /// Returns the bytes of a table that is kept until the patches are divided.
 double bytes_of_table(const PatchTable& table) {
     constexpr double bytes_per_row = sizeof(double) + 3 * sizeof(Vec3);
     return bytes_per_row * static_cast<double>(table.area.size());
-}
-
-/// Adds and logs what reading the file again has noticed, where reading it first has not warned of
-/// files outside of its folder.
-void warn_once(std::vector<std::string>& warnings, const std::vector<std::string>& more,
-               Verbosity verbosity) {
-    const auto is_outside = [](const std::string& text) {
-        return text.find(outside_warning) != std::string::npos;
-    };
-    if (std::ranges::any_of(warnings, is_outside))
-        return;
-    log_warnings(verbosity, more);
-    warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
 /// Reads the files of the run; checks its options first, and then what they are for this scene.
@@ -163,9 +139,7 @@ Loaded load(SolveSettings settings) {
     check_plain(settings, mesh.patches().size());
     FileLightmap file_lightmap;
     if (settings.file_bake.asked)
-        file_lightmap = lightmap_of_file(settings, mesh, scene.origins);
-    if (file_lightmap.source)
-        warn_once(scene.warnings, file_lightmap.source->warnings(), settings.verbosity);
+        file_lightmap = lightmap_of_file(settings, mesh, scene.origins, scene.warnings);
     (void)detail_mask(mesh, settings.detail); // names only groups of the scene
     return {std::move(settings),      std::move(resumed),   std::move(points),
             std::move(target_points), std::move(reference), std::move(scene),
@@ -332,7 +306,8 @@ LightmapLayout lightmap_layout(const Problem& problem) {
         return problem.loaded.file_lightmap.layout;
     try {
         const int size = *settings.lightmap;
-        return {placed_triangles(problem.mesh(), find_charts(problem.mesh(), size)), size, gutter};
+        return {
+            placed_triangles(problem.mesh(), find_charts(problem.mesh(), size)), size, gutter, {}};
     } catch (const LightmapTooSmall&) { // which the output that fails reports
         return {};
     }

@@ -304,7 +304,7 @@ void Gathering::find_lightmap(const LightmapLayout& layout) {
     const SurfaceLight& light = light_.cache->light();
     std::vector<PlacedTriangle> triangles = layout.triangles;
     show_brighter_sides(mesh, solution_, triangles);
-    const TexelMap texels(mesh, std::move(triangles), layout.size);
+    const TexelMap texels = texels_of(layout, std::move(triangles), mesh, scene_.tracer);
     LightmapOptions options{.bake = settings_.bake, .check = [this] {
                                 if (time_.is_over())
                                     throw Interrupted();

@@ -13,8 +13,10 @@
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace hemilux {
@@ -25,6 +27,19 @@ namespace {
 constexpr double max_overlap = 1e-3;
 
 constexpr std::size_t max_names = 4;
+
+/// Adds and logs what reading the file again has noticed, where reading it first has not warned of
+/// files outside of its folder.
+void warn_once(std::vector<std::string>& warnings, const std::vector<std::string>& more,
+               Verbosity verbosity) {
+    const auto is_outside = [](const std::string& text) {
+        return text.find(outside_warning) != std::string::npos;
+    };
+    if (std::ranges::any_of(warnings, is_outside))
+        return;
+    log_warnings(verbosity, more);
+    warnings.insert(warnings.end(), more.begin(), more.end());
+}
 
 std::vector<std::string> names_of(const std::vector<std::uint32_t>& groups, const Scene& scene) {
     std::vector<std::string> names;
@@ -102,16 +117,44 @@ LightmapLayout own_layout(const SolveSettings& settings, const Mesh& mesh,
         log_line(settings.verbosity, Verbosity::verbose,
                  counted(atlas.charts.size(), "chart", "charts") + " in a lightmap of " +
                      std::to_string(atlas.size) + " x " + std::to_string(atlas.size) + " texels");
-        return {placed_triangles(mesh, atlas.charts), atlas.size, bake.margin};
+        return {placed_triangles(mesh, atlas.charts), atlas.size, bake.margin, {}};
     } catch (const LightmapTooSmall& error) {
         throw std::runtime_error(std::string(error.what()) + "; --lightmap asks for more");
     }
 }
 
+/// Returns the normals of the file; warns where it has none.
+std::vector<CornerNormals> smooth_normals(const SolveSettings& settings, gltf::LitSource& source,
+                                          const Mesh& mesh, std::vector<std::string>& warnings) {
+    std::vector<CornerNormals> normals = gltf::normals_of_file(source, mesh);
+    if (std::ranges::any_of(normals, [](const CornerNormals& of) { return of != CornerNormals{}; }))
+        return normals;
+    warnings.push_back(settings.scene.path + ": no primitive has normals, so --normals smooth "
+                                             "changes nothing");
+    log_warnings(settings.verbosity, {warnings.back()});
+    return {};
+}
+
 } // namespace
 
+double bytes_of_own_file(const SolveSettings& settings) {
+    constexpr double copies = 4;
+    std::error_code error;
+    const auto size = std::filesystem::file_size(settings.scene.path, error);
+    return settings.file_bake.asked && !error ? copies * static_cast<double>(size) : 0;
+}
+
+TexelMap texels_of(const LightmapLayout& layout, std::vector<PlacedTriangle> triangles,
+                   const Mesh& mesh, const Tracer& tracer) {
+    TexelMap texels(mesh, std::move(triangles), layout.size);
+    if (!layout.normals.empty())
+        texels.set_normals(layout.normals, tracer);
+    return texels;
+}
+
 FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
-                              std::vector<PrimitiveOrigin> origins) {
+                              std::vector<PrimitiveOrigin> origins,
+                              std::vector<std::string>& warnings) {
     const FileBakeSettings& bake = settings.file_bake;
     const std::string& path = settings.scene.path;
     const int size = settings.lightmap.value_or(FileBakeSettings::default_size);
@@ -119,18 +162,23 @@ FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
     found.source =
         std::make_unique<gltf::LitSource>(path, memory_guard(path, settings.scene.memory),
                                           settings.scene.outside, std::move(origins));
+    warn_once(warnings, found.source->warnings(), settings.verbosity);
     constexpr double copies = 4; // buffers, as one, and both as they are written
     memory_guard(path, settings.scene.memory)(copies * found.source->bytes());
     const std::vector<ChartSide> sides = fronts_of_file(mesh, found.source->origins());
+    std::vector<CornerNormals> normals;
+    if (bake.smooth)
+        normals = smooth_normals(settings, *found.source, mesh, warnings);
     const std::size_t sets = found.source->texcoord_sets(), asked = bake.set.value_or(1);
     std::string fault;
     if (!bake.new_set && !bake.texels_per_metre && (asked < sets || bake.set)) {
         check_memory_of(size, settings);
         const gltf::PlacesOfFile places = gltf::places_in_set(*found.source, mesh, sides, asked);
-        LightmapLayout layout{{}, size, bake.margin};
+        LightmapLayout layout{{}, size, bake.margin, {}};
         fault = fault_of(places, mesh, size, layout.triangles);
         if (fault.empty()) {
             found.layout = std::move(layout);
+            found.layout.normals = std::move(normals);
             found.set = asked;
             return found;
         }
@@ -144,6 +192,7 @@ FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
              (fault.empty() ? "" : fault + "; ") + "the lightmap has coordinates of its own, " +
                  "TEXCOORD_" + std::to_string(found.set));
     found.layout = own_layout(settings, mesh, sides);
+    found.layout.normals = std::move(normals);
     return found;
 }
 

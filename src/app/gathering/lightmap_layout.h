@@ -13,9 +13,10 @@
 namespace hemilux {
 
 struct LightmapLayout {
-    std::vector<PlacedTriangle> triangles; ///< places in texels
-    int size = 0;                          ///< texels along a side
-    int margin = 0;                        ///< texels around charts that are filled
+    std::vector<PlacedTriangle> triangles;   ///< places in texels
+    int size = 0;                            ///< texels along a side
+    int margin = 0;                          ///< texels around charts that are filled
+    std::vector<CornerNormals> normals = {}; ///< by facet; empty: texels have those of their facets
 };
 
 /// The scene's own file, and its lightmap.
@@ -26,12 +27,23 @@ struct FileLightmap {
     bool is_new = false; ///< the set is not of the file
 };
 
+/// Returns the texels of a layout, whose triangles show these sides. Both must outlive it.
+[[nodiscard]] TexelMap texels_of(const LightmapLayout& layout,
+                                 std::vector<PlacedTriangle> triangles, const Mesh& mesh,
+                                 const Tracer& tracer);
+
 /// Finds the layout of `bake`: the texture coordinates that the file has for it, or an atlas of our
 /// own, which is logged with what is wrong with those of the file. Throws UsageError for a scene
 /// that is no glTF file or no file at all, InputError for a set asked for that cannot be used, and
-/// std::runtime_error where the lightmap is too small or needs more memory than it may.
+/// std::runtime_error where the lightmap is too small or needs more memory than it may. Adds and
+/// logs what reading the file again has noticed.
 [[nodiscard]] FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
-                                            std::vector<PrimitiveOrigin> origins);
+                                            std::vector<PrimitiveOrigin> origins,
+                                            std::vector<std::string>& warnings);
+
+/// Returns the bytes of the scene's own file while it is written again: its buffers, their copy and
+/// its JSON. They are 0 where it is not.
+[[nodiscard]] double bytes_of_own_file(const SolveSettings& settings);
 
 /// Lets the triangles of each chart show the brighter side of two-sided facets, by the light of the
 /// patches: a place in a lightmap has one light, and viewers show it on both sides.

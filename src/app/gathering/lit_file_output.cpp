@@ -3,11 +3,12 @@
 #include "app/rendering/view.h"
 #include "geometry/elementary.h"
 #include "io/gltf/lit_file.h"
+#include "io/pictures/exr.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <utility>
 #include <vector>
 
 namespace hemilux {
@@ -60,10 +61,11 @@ std::vector<std::uint8_t> shown_bytes(const Image& lightmap, const Display& disp
 void write_lit_file(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
                     const FileLightmap& file, const Image& lightmap) {
     const Binding binding = settings.file_bake.binding;
+    const bool is_occlusion = settings.file_bake.occlusion;
     Display display = display_of(settings.view);
-    if (!settings.view.exposure)
+    if (!settings.view.exposure && !is_occlusion)
         display.exposure = auto_exposure(lightmap) * elementary::exp2(settings.view.stops);
-    const float largest = largest_shown(lightmap);
+    const float largest = is_occlusion ? 1 : largest_shown(lightmap);
     const bool is_shown = binding == Binding::unlit;
     const std::string png =
         png_of(lightmap.width, lightmap.height,
@@ -73,7 +75,7 @@ void write_lit_file(const SolveSettings& settings, const std::string& path, cons
                            .intensity = is_shown ? 1 : double(largest),
                            .set = file.set,
                            .command = settings.from.command,
-                           .bake = name_of(settings.bake),
+                           .bake = is_occlusion ? "ao" : name_of(settings.bake),
                            .exposure = display.exposure};
     if (file.is_new) {
         std::vector<PlacedTriangle> in_unit_square = file.layout.triangles;
@@ -83,6 +85,14 @@ void write_lit_file(const SolveSettings& settings, const std::string& path, cons
         of_file.coordinates = gltf::atlas_coordinates(*file.source, mesh, in_unit_square);
     }
     write_lit_glb(path, *file.source, of_file);
+}
+
+void write_lightmap_exr(const SolveSettings& settings, const std::string& path,
+                        const Image& lightmap) {
+    std::vector<ExrChannel> channels;
+    add_half_exr_channels(channels, lightmap);
+    write_exr(lightmap_path(path), lightmap.width, lightmap.height, std::move(channels),
+              settings.from);
 }
 
 } // namespace hemilux

@@ -13,4 +13,8 @@ namespace hemilux {
 void write_lit_file(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
                     const FileLightmap& file, const Image& lightmap);
 
+/// Writes the light of the lightmap of the file at `path` beside it. Throws OutputError.
+void write_lightmap_exr(const SolveSettings& settings, const std::string& path,
+                        const Image& lightmap);
+
 } // namespace hemilux

@@ -165,12 +165,7 @@ void write_own_file(const SolveSettings& settings, const std::string& path, cons
         throw Interrupted();
     const Image& light = *results.gathered.lightmap;
     write_lit_file(settings, path, results.mesh, results.file_lightmap, light);
-    report.attempt(lightmap_path(path), [&] {
-        std::vector<ExrChannel> channels;
-        add_half_exr_channels(channels, light);
-        write_exr(lightmap_path(path), light.width, light.height, std::move(channels),
-                  settings.from);
-    });
+    report.attempt(lightmap_path(path), [&] { write_lightmap_exr(settings, path, light); });
 }
 
 void write_output(const SolveSettings& settings, const Output& output, const Results& results,

@@ -212,7 +212,8 @@ std::size_t Writer::add_texture() {
 /// Binds the texture to the materials of all primitives that were read. Those without a material
 /// get one that looks the same.
 void Writer::bind(std::size_t texture) {
-    const bool is_unlit = lightmap_.binding == Binding::unlit;
+    const bool is_unlit = lightmap_.binding == Binding::unlit,
+               is_occlusion = lightmap_.binding == Binding::occlusion;
     std::set<std::size_t> used;
     std::optional<std::size_t> plain;
     for (const PrimitiveOrigin& origin : source_.origins()) {
@@ -240,13 +241,15 @@ void Writer::bind(std::size_t texture) {
                                           "occlusionTexture", "extensions"})
                 material.erase(lit);
             material["extensions"]["KHR_materials_unlit"] = Json::object();
+        } else if (is_occlusion) {
+            material["occlusionTexture"] = info;
         } else {
             Json& extension = material["extensions"]["MOZ_lightmap"];
             extension = info;
             extension["intensity"] = lightmap_.intensity;
         }
     }
-    if (!used.empty())
+    if (!used.empty() && !is_occlusion)
         use_extension(is_unlit ? "KHR_materials_unlit" : "MOZ_lightmap");
 }
 
