@@ -169,7 +169,18 @@ void TexelMap::paint(std::uint32_t number, OverlapCounts& overlaps) {
     }
 }
 
+/// From a point on the edge of a facet half of the rays would begin on the wall beside it, and miss
+/// that. So points keep a little from all edges.
 SurfacePoint TexelMap::point_of(const PlacedTriangle& triangle, double u, double v) const {
+    constexpr double least = 1e-6; // share of a corner
+    if (std::min({1 - u - v, u, v}) < least) {
+        const double w = std::max(1 - u - v, least);
+        u = std::max(u, least);
+        v = std::max(v, least);
+        const double sum = w + u + v;
+        u /= sum;
+        v /= sum;
+    }
     const auto [a, b, c] = corners_of(mesh_, triangle);
     const std::uint32_t patch =
         mesh_.patch_at({triangle.facet, 0, u, v, triangle.second_half, !triangle.back});
@@ -186,8 +197,8 @@ SurfacePoint TexelMap::point_near(std::size_t texel, const Vec2& place) const {
     return point_of(on, u, v);
 }
 
-void TexelMap::set_normals(std::vector<CornerNormals> normals, const Tracer& tracer) {
-    normals_ = std::move(normals);
+void TexelMap::set_normals(std::span<const CornerNormals> normals, const Tracer& tracer) {
+    normals_ = normals;
     tracer_ = &tracer;
 }
 

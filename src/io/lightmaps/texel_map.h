@@ -56,9 +56,9 @@ class TexelMap {
     [[nodiscard]] SurfacePoint point(std::size_t texel) const;
     /// Returns the point at a place [texels] near a texel, on the same triangle.
     [[nodiscard]] SurfacePoint point_near(std::size_t texel, const Vec2& place) const;
-    /// Lets points receive light with these normals, by facet (smooth_point.h). The tracer must
-    /// outlive this object.
-    void set_normals(std::vector<CornerNormals> normals, const Tracer& tracer);
+    /// Lets points receive light with these normals, by facet (smooth_point.h). Both must outlive
+    /// this object.
+    void set_normals(std::span<const CornerNormals> normals, const Tracer& tracer);
     /// Return these points as they receive light, without their patch: those above where no normals
     /// were set.
     [[nodiscard]] SurfacePoint receiver(std::size_t texel) const;
@@ -92,7 +92,7 @@ class TexelMap {
     int size_;
     std::vector<Texel> texels_;
     std::vector<Overlap> overlaps_;
-    std::vector<CornerNormals> normals_; ///< by facet; empty: those of facets
+    std::span<const CornerNormals> normals_; ///< by facet; empty: those of facets
     const Tracer* tracer_ = nullptr;
 };
 

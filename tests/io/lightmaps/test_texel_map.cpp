@@ -198,6 +198,26 @@ TEST_CASE("texels have the light of lights without extent, unless only what is r
     CHECK(indirect.image.at(9, 9) == glm::vec3(0));
 }
 
+TEST_CASE("in a room of one radiosity texels at the edges of walls have all the light") {
+    constexpr int size = 64;
+    const Model model(box_room({0, 0, 0}, {3, 2, 2}, 1, {{"a", Vec3(0), Vec3(1)}}, {}));
+    const TexelMap texels(model.mesh, placed_triangles(model.mesh, find_charts(model.mesh, size)),
+                          size);
+    const std::vector<Vec3> sent(model.mesh.patches().size(), Vec3(1.0));
+    const SurfaceLight light(model.mesh, PatchLight(sent));
+    const GatheredLightmap lightmap =
+        gather_lightmap(model.mesh, model.bvh, light, texels, std::vector<bool>(texels.count()),
+                        {.bake = Bake::irradiance, .rays = 64}, Workers(2));
+    std::size_t edges = 0;
+    for (std::size_t k = 0; k < texels.count(); ++k) {
+        if (!texels.shows(k))
+            continue;
+        edges += !texels.is_inside(k);
+        REQUIRE(lightmap.image.pixels[k].x == Approx(1).margin(.01));
+    }
+    CHECK(edges > 300);
+}
+
 TEST_CASE("gutters and covered texels take the light beside them") {
     constexpr int size = 16;
     const BlockOnFloor floor(size);
