@@ -117,6 +117,9 @@ void add_place_options(Command command, SolveSettings& settings) {
     add_number(command, "--texels-per-metre", "X", bake.texels_per_metre, positive,
                "as many texels as that needs, in an atlas of our own")
         .excludes(size);
+    command.add_flag("--per-object", bake.per_object,
+                     "a lightmap for each object, FILE.NAME.lightmap.exr: the largest has "
+                     "--lightmap texels along a side, others are as dense");
     add_whole<int>(command, "--margin", bake.margin, 1, FileBakeSettings::max_margin,
                    "texels around charts that have their light, too [2]");
 }

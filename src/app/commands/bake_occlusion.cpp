@@ -4,6 +4,7 @@
 #include "app/gathering/lightmap_layout.h"
 #include "app/gathering/lit_file_output.h"
 #include "app/loading/load_geometry.h"
+#include "app/running/results.h"
 #include "app/running/run_files.h"
 #include "app/running/signals.h"
 #include "app/running/write_report.h"
@@ -86,6 +87,16 @@ void log_errors(const SolveSettings& settings, const Scene& scene, const Occlusi
                      ", is not reached for all objects");
 }
 
+/// Returns the rays and the errors of all lightmaps. An object of several is that often in it.
+Occlusion all_of(std::span<const Occlusion> found) {
+    Occlusion all;
+    for (const Occlusion& part : found) {
+        all.objects.insert(all.objects.end(), part.objects.begin(), part.objects.end());
+        all.rays += part.rays;
+    }
+    return all;
+}
+
 void enter(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
            const Occlusion& found) {
     statistics.patches = mesh.patches().size();
@@ -106,12 +117,13 @@ void enter(Statistics& statistics, const SolveSettings& settings, const Mesh& me
 }
 
 WriteReport write(const SolveSettings& settings, const Mesh& mesh, const FileLightmap& file,
-                  const Image& lightmap, Statistics& statistics, const Stopwatch& started) {
+                  std::span<const Image> lightmaps, Statistics& statistics,
+                  const Stopwatch& started) {
     WriteReport report;
     const std::string& path = settings.outputs.front().path;
     const Stopwatch writing;
-    report.attempt(path, [&] { write_lit_file(settings, path, mesh, file, lightmap); });
-    report.attempt(lightmap_path(path), [&] { write_lightmap_exr(settings, path, lightmap); });
+    report.attempt(path, [&] { write_lit_file(settings, path, mesh, file, lightmaps); });
+    write_lightmaps(settings, path, file, lightmaps, report);
     statistics.seconds_write = writing.seconds();
     statistics.seconds_total = started.seconds();
     statistics.bytes_peak = peak_memory_bytes();
@@ -147,27 +159,34 @@ int bake_occlusion(const SolveSettings& settings) {
     const std::atomic<bool>& interrupted = monitor.interrupted.own().wished;
     guard.watch(monitor.interrupted.own().wished);
     const Workers workers(settings.options.threads);
-    const TexelMap texels = texels_of(file.layout, file.layout.triangles, mesh, *made.tracer);
     OcclusionOptions options = occlusion_options(settings, mesh, interrupted, started);
     std::optional<Stage> stage(std::in_place, "gathering the occlusion", settings.verbosity);
     const Stopwatch gathering;
-    Occlusion found;
+    std::vector<Occlusion> found;
+    std::vector<Image> lightmaps;
     try {
-        const std::vector<bool> covered =
-            find_covered(mesh, *made.tracer, texels, options.check, workers);
-        found = gather_occlusion(mesh, *made.tracer, texels, covered, options, workers);
+        for (const ObjectLightmap& part : file.parts) {
+            const TexelMap texels =
+                texels_of(part.layout, part.layout.triangles, mesh, *made.tracer);
+            const std::vector<bool> covered =
+                find_covered(mesh, *made.tracer, texels, options.check, workers);
+            Occlusion& of_part = found.emplace_back(
+                gather_occlusion(mesh, *made.tracer, texels, covered, options, workers));
+            fill_texels(of_part.lightmap, texels, part.layout.margin);
+            lightmaps.push_back(std::move(of_part.lightmap.image));
+            options.max_rays -= std::min(options.max_rays, of_part.rays);
+        }
     } catch (const Interrupted&) {
         stage.reset();
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();
     }
+    const Occlusion all = all_of(found);
     statistics.seconds_gather = gathering.seconds();
     stage.reset();
-    fill_texels(found.lightmap, texels, file.layout.margin);
-    log_errors(settings, mesh.scene(), found);
-    enter(statistics, settings, mesh, found);
-    const WriteReport report =
-        write(settings, mesh, file, found.lightmap.image, statistics, started);
+    log_errors(settings, mesh.scene(), all);
+    enter(statistics, settings, mesh, all);
+    const WriteReport report = write(settings, mesh, file, lightmaps, statistics, started);
     report.log(settings.verbosity);
     const bool ended(interrupted);
     report.log_interruption(settings.verbosity, ended);

@@ -139,7 +139,7 @@ Loaded load(SolveSettings settings) {
     check_plain(settings, mesh.patches().size());
     FileLightmap file_lightmap;
     if (settings.file_bake.asked)
-        file_lightmap = lightmap_of_file(settings, mesh, scene.origins, scene.warnings);
+        file_lightmap = lightmaps_to_write(settings, mesh, scene.origins, scene.warnings);
     (void)detail_mask(mesh, settings.detail); // names only groups of the scene
     return {std::move(settings),      std::move(resumed),   std::move(points),
             std::move(target_points), std::move(reference), std::move(scene),
@@ -299,18 +299,23 @@ LitScene lit_scene(const Problem& problem, const Solution& solution) {
             problem.settings().options.threads};
 }
 
-/// Returns where surfaces lie in the lightmap, if one is gathered.
-LightmapLayout lightmap_layout(const Problem& problem) {
+/// Returns where surfaces lie in the lightmaps that are gathered.
+std::vector<NamedLayout> lightmap_layouts(const Problem& problem) {
     const SolveSettings& settings = problem.settings();
-    if (settings.file_bake.asked || !gathers_lightmap(settings))
-        return problem.loaded.file_lightmap.layout;
+    std::vector<NamedLayout> layouts;
+    if (settings.file_bake.asked || !gathers_lightmap(settings)) {
+        for (const ObjectLightmap& part : problem.loaded.file_lightmap.parts)
+            layouts.push_back({part.name, part.layout});
+        return layouts;
+    }
     try {
         const int size = *settings.lightmap;
-        return {
-            placed_triangles(problem.mesh(), find_charts(problem.mesh(), size)), size, gutter, {}};
+        layouts.push_back(
+            {"",
+             {placed_triangles(problem.mesh(), find_charts(problem.mesh(), size)), size, gutter}});
     } catch (const LightmapTooSmall&) { // which the output that fails reports
-        return {};
     }
+    return layouts;
 }
 
 /// Gathers light where outputs show that; chooses the camera of pictures.
@@ -324,7 +329,7 @@ GatheredLight gather(const Problem& problem, Run& done, const Solution& solution
     if (has_pictures(settings) && !done.camera)
         done.camera = shown_camera_of(settings.view, lit, settings.verbosity);
     return gather_light(settings, lit, solution, problem.loaded.points,
-                        done.camera.value_or(Camera()), lightmap_layout(problem), problem.monitor,
+                        done.camera.value_or(Camera()), lightmap_layouts(problem), problem.monitor,
                         statistics);
 }
 

@@ -1,5 +1,6 @@
 #include "app/gathering/lightmap_layout.h"
 
+#include "app/gathering/objects_of_file.h"
 #include "app/memory/memory.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
@@ -13,8 +14,10 @@
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -27,6 +30,9 @@ namespace {
 constexpr double max_overlap = 1e-3;
 
 constexpr std::size_t max_names = 4;
+
+/// The least lightmap of an object [texels along a side].
+constexpr int min_size = 16;
 
 /// Adds and logs what reading the file again has noticed, where reading it first has not warned of
 /// files outside of its folder.
@@ -48,16 +54,17 @@ std::vector<std::string> names_of(const std::vector<std::uint32_t>& groups, cons
     return names;
 }
 
-/// Returns the front of each facet that a primitive of the file shows; the brighter sides are found
-/// later.
-std::vector<ChartSide> fronts_of_file(const Mesh& mesh,
-                                      const std::vector<PrimitiveOrigin>& origins) {
+/// Returns the front of each facet that these primitives show; the brighter sides are found later.
+std::vector<ChartSide> fronts_of_file(const Mesh& mesh, const gltf::LitSource& source,
+                                      std::span<const std::size_t> origins) {
     const std::vector<std::uint32_t> by_face = gltf::facets_by_face(mesh);
     std::vector<ChartSide> sides;
-    for (const PrimitiveOrigin& origin : origins)
+    for (const std::size_t o : origins) {
+        const PrimitiveOrigin& origin = source.origins()[o];
         for (std::uint32_t t = 0; t < origin.faces; ++t)
             if (const std::uint32_t f = by_face[origin.first_face + t]; f != none)
                 sides.push_back({f, false});
+    }
     return sides;
 }
 
@@ -95,32 +102,109 @@ std::string fault_of(const gltf::PlacesOfFile& places, const Mesh& mesh, int siz
     return text;
 }
 
-void check_memory_of(int size, const SolveSettings& settings) {
-    const std::optional<std::uint64_t>& limit = settings.scene.memory;
-    if (limit && bytes_of_lightmap(size, true) > double(*limit))
+/// Finds the layouts of lightmaps one after the other, all of which have to fit into the memory.
+class LayoutFinder {
+  public:
+    /// All arguments must outlive this object.
+    LayoutFinder(const SolveSettings& settings, const Mesh& mesh, gltf::LitSource& source)
+        : settings_(settings), bake_(settings.file_bake), mesh_(mesh), source_(source) {}
+
+    /// Returns the lightmap of these origins; it may be larger where its charts need that, but not
+    /// than --lightmap says.
+    [[nodiscard]] ObjectLightmap find(std::string name, std::vector<std::size_t> origins, int size);
+    /// Logs which objects have coordinates that the file has not, and why.
+    void log_new_sets() const;
+
+  private:
+    [[nodiscard]] LightmapLayout own_layout(std::span<const ChartSide> sides, int size);
+    void add_to_memory(int size);
+
+    const SolveSettings& settings_;
+    const FileBakeSettings& bake_;
+    const Mesh& mesh_;
+    gltf::LitSource& source_;
+    double bytes_ = 0; ///< of all lightmaps so far, once they are gathered
+    int largest_ = 0;  ///< texels along a side
+    std::vector<std::string> new_sets_, faults_; ///< names of objects, and what is wrong with those
+};
+
+/// One lightmap at a time is gathered, and all are kept until they are written.
+void LayoutFinder::add_to_memory(int size) {
+    bytes_ += bytes_of_lightmap(size, false);
+    largest_ = std::max(largest_, size);
+    const double gathered = bytes_of_lightmap(largest_, true) - bytes_of_lightmap(largest_, false);
+    const std::optional<std::uint64_t>& limit = settings_.scene.memory;
+    if (limit && bytes_ + gathered > double(*limit))
         throw std::runtime_error("a lightmap of " + std::to_string(size) + " x " +
-                                 std::to_string(size) +
-                                 " texels needs more memory than --memory allows");
+                                 std::to_string(size) + " texels" +
+                                 (bake_.per_object ? " after those of other objects" : "") +
+                                 " needs more memory than --memory allows");
 }
 
-LightmapLayout own_layout(const SolveSettings& settings, const Mesh& mesh,
-                          std::span<const ChartSide> sides) {
-    const FileBakeSettings& bake = settings.file_bake;
-    AtlasOptions options{.margin = bake.margin, .max_size = SolveSettings::max_lightmap};
-    if (bake.texels_per_metre)
-        options.density = *bake.texels_per_metre / mesh.frame().scale;
+LightmapLayout LayoutFinder::own_layout(std::span<const ChartSide> sides, int size) {
+    const int most = settings_.lightmap.value_or(FileBakeSettings::default_size);
+    AtlasOptions options{.margin = bake_.margin, .max_size = SolveSettings::max_lightmap};
+    if (bake_.texels_per_metre)
+        options.density = *bake_.texels_per_metre / mesh_.frame().scale;
     else
-        options.size = settings.lightmap.value_or(FileBakeSettings::default_size);
-    try {
-        const Atlas atlas = make_atlas(mesh, sides, options);
-        check_memory_of(atlas.size, settings);
-        log_line(settings.verbosity, Verbosity::verbose,
-                 counted(atlas.charts.size(), "chart", "charts") + " in a lightmap of " +
-                     std::to_string(atlas.size) + " x " + std::to_string(atlas.size) + " texels");
-        return {placed_triangles(mesh, atlas.charts), atlas.size, bake.margin, {}};
-    } catch (const LightmapTooSmall& error) {
-        throw std::runtime_error(std::string(error.what()) + "; --lightmap asks for more");
+        options.size = size;
+    for (;;) {
+        try {
+            const Atlas atlas = make_atlas(mesh_, sides, options);
+            log_line(settings_.verbosity, Verbosity::verbose,
+                     counted(atlas.charts.size(), "chart", "charts") + " in a lightmap of " +
+                         std::to_string(atlas.size) + " x " + std::to_string(atlas.size) +
+                         " texels");
+            return {placed_triangles(mesh_, atlas.charts), atlas.size, bake_.margin};
+        } catch (const LightmapTooSmall& error) {
+            if (bake_.texels_per_metre || options.size >= most)
+                throw std::runtime_error(std::string(error.what()) + "; --lightmap asks for more");
+            options.size = std::min(2 * options.size, most);
+        }
     }
+}
+
+ObjectLightmap LayoutFinder::find(std::string name, std::vector<std::size_t> origins, int size) {
+    const std::size_t sets = source_.texcoord_sets(), asked = bake_.set.value_or(1);
+    ObjectLightmap found{.name = std::move(name), .origins = std::move(origins)};
+    const std::vector<ChartSide> sides = fronts_of_file(mesh_, source_, found.origins);
+    if (!bake_.new_set && !bake_.texels_per_metre && (asked < sets || bake_.set)) {
+        found.layout = {{}, size, bake_.margin};
+        std::string fault =
+            fault_of(gltf::places_in_set(source_, mesh_, sides, asked, found.origins), mesh_, size,
+                     found.layout.triangles);
+        found.set = asked;
+        if (fault.empty()) {
+            add_to_memory(size);
+            return found;
+        }
+        fault = "TEXCOORD_" + std::to_string(asked) + " of the file cannot be used, as " + fault;
+        if (bake_.set)
+            throw InputError(source_.path(),
+                             fault + "; --lightmap-uv new makes an atlas of its own");
+        faults_.push_back(std::move(fault));
+    }
+    found.set = std::max<std::size_t>(sets, 1);
+    found.is_new = true;
+    new_sets_.push_back(found.name);
+    found.layout = own_layout(sides, size);
+    add_to_memory(found.layout.size);
+    return found;
+}
+
+void LayoutFinder::log_new_sets() const {
+    if (new_sets_.empty())
+        return;
+    std::string text = faults_.empty() ? "" : faults_.front() + "; ";
+    if (faults_.size() > 1)
+        text +=
+            "so it is with " + counted(faults_.size() - 1, "more object", "more objects") + "; ";
+    text += bake_.per_object ? "lightmaps of these objects have coordinates of their own, "
+                             : "the lightmap has coordinates of its own, ";
+    text += "TEXCOORD_" + std::to_string(std::max<std::size_t>(source_.texcoord_sets(), 1));
+    if (bake_.per_object)
+        text += ": " + list_names(new_sets_, max_names);
+    log_line(settings_.verbosity, Verbosity::normal, text);
 }
 
 /// Returns the normals of the file; warns where it has none.
@@ -157,7 +241,6 @@ FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
                               std::vector<std::string>& warnings) {
     const FileBakeSettings& bake = settings.file_bake;
     const std::string& path = settings.scene.path;
-    const int size = settings.lightmap.value_or(FileBakeSettings::default_size);
     FileLightmap found;
     found.source =
         std::make_unique<gltf::LitSource>(path, memory_guard(path, settings.scene.memory),
@@ -165,34 +248,28 @@ FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
     warn_once(warnings, found.source->warnings(), settings.verbosity);
     constexpr double copies = 4; // buffers, as one, and both as they are written
     memory_guard(path, settings.scene.memory)(copies * found.source->bytes());
-    const std::vector<ChartSide> sides = fronts_of_file(mesh, found.source->origins());
-    std::vector<CornerNormals> normals;
     if (bake.smooth)
-        normals = smooth_normals(settings, *found.source, mesh, warnings);
-    const std::size_t sets = found.source->texcoord_sets(), asked = bake.set.value_or(1);
-    std::string fault;
-    if (!bake.new_set && !bake.texels_per_metre && (asked < sets || bake.set)) {
-        check_memory_of(size, settings);
-        const gltf::PlacesOfFile places = gltf::places_in_set(*found.source, mesh, sides, asked);
-        LightmapLayout layout{{}, size, bake.margin, {}};
-        fault = fault_of(places, mesh, size, layout.triangles);
-        if (fault.empty()) {
-            found.layout = std::move(layout);
-            found.layout.normals = std::move(normals);
-            found.set = asked;
-            return found;
+        found.normals = smooth_normals(settings, *found.source, mesh, warnings);
+    const int size = settings.lightmap.value_or(FileBakeSettings::default_size);
+    LayoutFinder finder(settings, mesh, *found.source);
+    if (!bake.per_object) {
+        std::vector<std::size_t> all(found.source->origins().size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        found.parts.push_back(finder.find("", std::move(all), size));
+    } else {
+        const std::vector<ObjectOfFile> objects = objects_of(*found.source, mesh);
+        double largest = 0;
+        for (const ObjectOfFile& object : objects)
+            largest = std::max(largest, object.area);
+        for (const ObjectOfFile& object : objects) {
+            const double side = std::ceil(size * std::sqrt(object.area / largest));
+            found.parts.push_back(finder.find(object.name, object.origins,
+                                              std::max(static_cast<int>(side), min_size)));
         }
-        fault = "TEXCOORD_" + std::to_string(asked) + " of the file cannot be used, as " + fault;
-        if (bake.set)
-            throw InputError(path, fault + "; --lightmap-uv new makes an atlas of its own");
     }
-    found.set = std::max<std::size_t>(sets, 1);
-    found.is_new = true;
-    log_line(settings.verbosity, Verbosity::normal,
-             (fault.empty() ? "" : fault + "; ") + "the lightmap has coordinates of its own, " +
-                 "TEXCOORD_" + std::to_string(found.set));
-    found.layout = own_layout(settings, mesh, sides);
-    found.layout.normals = std::move(normals);
+    finder.log_new_sets();
+    for (ObjectLightmap& part : found.parts)
+        part.layout.normals = found.normals;
     return found;
 }
 

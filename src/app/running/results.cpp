@@ -120,7 +120,7 @@ int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
 /// other.
 void write_lightmapped(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
                        const CornerClasses& classes, VertexLight light, int up,
-                       const std::optional<Image>& gathered, WriteReport& report) {
+                       std::span<const Image> gathered, WriteReport& report) {
     const int size = *settings.lightmap;
     const std::vector<LightmapChart> charts = find_charts(mesh, size); // which fit: check_lightmap
     const ChartCorners corners = divide_by_charts(mesh, classes, charts);
@@ -133,8 +133,9 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path, c
     light.of_class = std::move(of_class);
     report.attempt(lightmap_path(path), [&] {
         std::vector<ExrChannel> channels;
-        add_half_exr_channels(channels, gathered ? *gathered
-                                                 : lightmap(charts, corners, light.of_class, size));
+        add_half_exr_channels(channels, gathered.empty()
+                                            ? lightmap(charts, corners, light.of_class, size)
+                                            : gathered.front());
         write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
     });
     write_glb(path, mesh, corners.classes, light, settings.from, up, texcoords);
@@ -153,19 +154,17 @@ void write_mesh(const SolveSettings& settings, const Output& output, const Resul
     const int up = up_axis(settings.view.up, results.mesh, settings.verbosity);
     if (settings.lightmap)
         write_lightmapped(settings, output.path, results.mesh, classes, light, up,
-                          results.gathered.lightmap, report);
+                          results.gathered.lightmaps, report);
     else
         write_glb(output.path, results.mesh, classes, light, settings.from, up);
 }
 
-/// Writes the output of `bake`, and its lightmap as an attempt of its own.
-void write_own_file(const SolveSettings& settings, const std::string& path, const Results& results,
-                    WriteReport& report) {
-    if (!results.gathered.lightmap)
+void write_gathered_file(const SolveSettings& settings, const std::string& path,
+                         const Results& results, WriteReport& report) {
+    if (results.gathered.lightmaps.empty())
         throw Interrupted();
-    const Image& light = *results.gathered.lightmap;
-    write_lit_file(settings, path, results.mesh, results.file_lightmap, light);
-    report.attempt(lightmap_path(path), [&] { write_lightmap_exr(settings, path, light); });
+    write_lit_file(settings, path, results.mesh, results.file_lightmap, results.gathered.lightmaps);
+    write_lightmaps(settings, path, results.file_lightmap, results.gathered.lightmaps, report);
 }
 
 void write_output(const SolveSettings& settings, const Output& output, const Results& results,
@@ -179,7 +178,7 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
     case OutputKind::ply:
     case OutputKind::glb:
         if (settings.file_bake.asked)
-            return write_own_file(settings, output.path, results, report);
+            return write_gathered_file(settings, output.path, results, report);
         return write_mesh(settings, output, results, classes.get(), report);
     case OutputKind::vtu:
         return write_vtu(output.path, results.mesh, classes.get(), solution, settings.from);
@@ -220,6 +219,19 @@ void write_report(const SolveSettings& settings, const Results& results) {
 }
 
 } // namespace
+
+void write_lightmaps(const SolveSettings& settings, const std::string& path,
+                     const FileLightmap& file, std::span<const Image> lightmaps,
+                     WriteReport& report) {
+    const std::vector<std::string> paths = lightmap_paths(path, file);
+    for (std::size_t k = 0; k < paths.size(); ++k)
+        report.attempt(paths[k], [&] {
+            const Image& light = lightmaps[k];
+            std::vector<ExrChannel> channels;
+            add_half_exr_channels(channels, light);
+            write_exr(paths[k], light.width, light.height, std::move(channels), settings.from);
+        });
+}
 
 bool shows_statistics(const SolveSettings& settings) {
     return settings.verbosity != Verbosity::quiet || !settings.statistics.empty() ||

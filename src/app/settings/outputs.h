@@ -29,6 +29,8 @@ struct Output {
 
 /// Returns the file of --lightmap beside a .glb file: scene.glb has scene.lightmap.exr.
 [[nodiscard]] std::string lightmap_path(const std::string& glb);
+/// Returns the file of an object of that name: scene.glb has scene.NAME.lightmap.exr.
+[[nodiscard]] std::string lightmap_path(const std::string& glb, const std::string& object);
 
 /// Throws OutputError where no file can be made or replaced at the path, links being followed.
 void check_writable(const std::string& path);

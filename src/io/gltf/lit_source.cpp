@@ -202,7 +202,7 @@ std::vector<CornerNormals> normals_of_file(LitSource& source, const Mesh& mesh) 
 }
 
 PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh, std::span<const ChartSide> sides,
-                           std::size_t set) {
+                           std::size_t set, std::span<const std::size_t> origins) {
     constexpr double rounding = 1e-5;
     const Scene& scene = mesh.scene();
     std::vector<std::uint32_t> side_of(scene.facets.size(), none);
@@ -210,7 +210,8 @@ PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh, std::span<const 
         side_of[sides[s].facet] = s;
     const std::vector<std::uint32_t> by_face = facets_by_face(mesh);
     PlacesOfFile found;
-    for (const PrimitiveOrigin& origin : source.origins()) {
+    for (const std::size_t o : origins) {
+        const PrimitiveOrigin& origin = source.origins()[o];
         const Triangles triangles = source.triangles_of(origin, set + 1);
         for (std::uint32_t t = 0; t < origin.faces; ++t) {
             const std::uint32_t f = by_face[origin.first_face + t];
@@ -241,14 +242,15 @@ PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh, std::span<const 
 }
 
 std::vector<AtlasCoordinates> atlas_coordinates(LitSource& source, const Mesh& mesh,
-                                                std::span<const PlacedTriangle> triangles) {
+                                                std::span<const PlacedTriangle> triangles,
+                                                std::span<const std::size_t> origins) {
     const Scene& scene = mesh.scene();
     std::vector<std::uint32_t> placed_of(scene.facets.size(), none);
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
         placed_of[triangles[t].facet] = t;
     const std::vector<std::uint32_t> by_face = facets_by_face(mesh);
     std::vector<AtlasCoordinates> all;
-    for (std::size_t o = 0; o < source.origins().size(); ++o) {
+    for (const std::size_t o : origins) {
         const PrimitiveOrigin& origin = source.origins()[o];
         const Triangles read = source.triangles_of(origin, 0);
         const Primitive& primitive = source.primitive_of(origin);

@@ -87,10 +87,11 @@ struct PlacesOfFile {
     /// Groups of facets, each once: those without coordinates, and with places beyond [0,1].
     std::vector<std::uint32_t> without, outside;
 };
-/// Returns the places of these sides in a set of the file. Charts are triangles that meet in the
-/// set as they do on the surface.
+/// Returns the places of these sides in a set of the file, as far as they are of the origins with
+/// these numbers. Charts are triangles that meet in the set as they do on the surface.
 [[nodiscard]] PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh,
-                                         std::span<const ChartSide> sides, std::size_t set);
+                                         std::span<const ChartSide> sides, std::size_t set,
+                                         std::span<const std::size_t> origins);
 
 /// The texture coordinates of a primitive in an atlas. Vertices at which charts meet are there once
 /// for each chart: the further ones stand behind those of the file.
@@ -100,9 +101,11 @@ struct AtlasCoordinates {
     std::vector<std::uint32_t> further; ///< vertices of the file that the further ones copy
     std::vector<std::array<std::uint32_t, 3>> corners; ///< vertices by triangle
 };
-/// Returns the coordinates of primitives of which some triangle is placed, from places in [0,1].
+/// Returns the coordinates of primitives of which some triangle is placed, from places in [0,1], as
+/// far as they are of the origins with these numbers.
 [[nodiscard]] std::vector<AtlasCoordinates>
-atlas_coordinates(LitSource& source, const Mesh& mesh, std::span<const PlacedTriangle> triangles);
+atlas_coordinates(LitSource& source, const Mesh& mesh, std::span<const PlacedTriangle> triangles,
+                  std::span<const std::size_t> origins);
 
 } // namespace gltf
 } // namespace hemilux
