@@ -5,6 +5,7 @@
 #include "app/command_line/options.h"
 #include "app/command_line/solving_options.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/extension.h"
 
 #include <memory>
 #include <optional>
@@ -18,6 +19,7 @@ constexpr const char* bake_examples = R"(Examples:
   hemilux bake room.glb -o lit.glb
   hemilux bake room.glb -o lit.glb --lightmap 2048 --error 1%
   hemilux bake room.gltf -o preview.glb --bind unlit
+  hemilux bake room.obj -o lit.obj --sky 1
   hemilux bake room.glb -o ao.glb --bake ao --ao-distance 0.5
 )";
 
@@ -66,7 +68,8 @@ void add_light_options(Command command, SolveSettings& settings,
          {Binding::texture, "texture"}},
         "how materials refer to the light: lightmap: by MOZ_lightmap; unlit: as an unlit base "
         "colour that any viewer shows; occlusion: as occlusionTexture, which dims the light from "
-        "all around in viewers; texture: not at all [lightmap; occlusion for --bake ao]",
+        "all around in viewers; texture: not at all [lightmap; occlusion for --bake ao; texture "
+        "for .obj]",
         [given](Binding value) { given->binding = value; });
     add_choice(
         command, "--normals", settings.file_bake.smooth, {{false, "facet"}, {true, "smooth"}},
@@ -85,7 +88,10 @@ void settle_light(const GivenLight& given, SolveSettings& settings) {
                                           : given.binding == Binding::occlusion ? Kind::occlusion
                                                                                 : Kind::irradiance);
     file.occlusion = kind == Kind::occlusion;
-    file.binding = given.binding.value_or(file.occlusion ? Binding::occlusion : Binding::lightmap);
+    const Binding usual = is_obj(settings.scene.path) ? Binding::texture
+                          : file.occlusion            ? Binding::occlusion
+                                                      : Binding::lightmap;
+    file.binding = given.binding.value_or(usual);
     settings.bake = kind == Kind::radiosity  ? Bake::radiosity
                     : kind == Kind::indirect ? Bake::indirect
                                              : Bake::irradiance;
@@ -132,18 +138,18 @@ Command add_bake_command(Arguments& program, SolveSettings& settings) {
     settings.bake = Bake::irradiance;
     const auto given = std::make_shared<GivenLight>();
     const Command command = program.add_command(
-        "bake", "solve a glTF scene, write the same file with its light as a lightmap");
+        "bake", "solve a glTF or OBJ scene, write the same file with its light as a lightmap");
     const Command scene = command.under(scene_group), outputs = command.under(output_group);
     add_scene_options(command, settings.scene);
     add_memory_option(scene, settings.scene);
     add_random_options(command.under(method_group), settings.options);
     add_stop_options(command.under("Stop at the first that is met"), settings.stop);
-    add_path(outputs, "-o,--output", "FILE.glb",
+    add_path(outputs, "-o,--output", "FILE.glb|FILE.obj",
              "the scene's file with its light; the light itself beside it as FILE.lightmap.exr, "
              "linear floats [W/m2]",
-             ".glb",
+             ".glb or .obj",
              [&settings](const std::string& path) {
-                 settings.outputs = {{path, OutputKind::glb}};
+                 settings.outputs = {{path, is_obj(path) ? OutputKind::obj : OutputKind::glb}};
              })
         .required();
     outputs.add_text("--stats", "FILE", settings.statistics, "statistics of the run as JSON");

@@ -372,8 +372,7 @@ bool has_gathered_picture(const SolveSettings& settings) {
 
 bool gathers_lightmap(const SolveSettings& settings) {
     return settings.lightmap && settings.gather_pictures &&
-           std::ranges::find(settings.outputs, OutputKind::glb, &Output::kind) !=
-               settings.outputs.end();
+           std::ranges::any_of(settings.outputs, is_own_file, &Output::kind);
 }
 
 bool gathers(const SolveSettings& settings) {

@@ -11,6 +11,7 @@
 #include "io/files/input_file.h"
 #include "io/files/text_words.h"
 #include "io/lightmaps/charts.h"
+#include "io/lightmaps/obj_places.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
@@ -106,25 +107,33 @@ std::string fault_of(const gltf::PlacesOfFile& places, const Mesh& mesh, int siz
 class LayoutFinder {
   public:
     /// All arguments must outlive this object.
-    LayoutFinder(const SolveSettings& settings, const Mesh& mesh, gltf::LitSource& source)
-        : settings_(settings), bake_(settings.file_bake), mesh_(mesh), source_(source) {}
+    LayoutFinder(const SolveSettings& settings, const Mesh& mesh)
+        : settings_(settings), bake_(settings.file_bake), mesh_(mesh) {}
 
     /// Returns the lightmap of these origins; it may be larger where its charts need that, but not
     /// than --lightmap says.
-    [[nodiscard]] ObjectLightmap find(std::string name, std::vector<std::size_t> origins, int size);
+    [[nodiscard]] ObjectLightmap find(gltf::LitSource& source, std::string name,
+                                      std::vector<std::size_t> origins, int size);
+    /// Returns the lightmap of an OBJ file.
+    [[nodiscard]] ObjectLightmap find(const LitObj& file, int size);
     /// Logs which objects have coordinates that the file has not, and why.
     void log_new_sets() const;
 
   private:
+    /// Takes the coordinates that the file has, if it may and nothing is wrong with them.
+    template <class FindPlaces>
+    [[nodiscard]] bool takes(ObjectLightmap& found, const std::string& coordinates, int size,
+                             const FindPlaces& find_places);
+    void make_own(ObjectLightmap& found, std::span<const ChartSide> sides, int size);
     [[nodiscard]] LightmapLayout own_layout(std::span<const ChartSide> sides, int size);
     void add_to_memory(int size);
 
     const SolveSettings& settings_;
     const FileBakeSettings& bake_;
     const Mesh& mesh_;
-    gltf::LitSource& source_;
-    double bytes_ = 0; ///< of all lightmaps so far, once they are gathered
-    int largest_ = 0;  ///< texels along a side
+    double bytes_ = 0;            ///< of all lightmaps so far, once they are gathered
+    int largest_ = 0;             ///< texels along a side
+    std::string new_coordinates_; ///< as messages name them
     std::vector<std::string> new_sets_, faults_; ///< names of objects, and what is wrong with those
 };
 
@@ -164,32 +173,69 @@ LightmapLayout LayoutFinder::own_layout(std::span<const ChartSide> sides, int si
     }
 }
 
-ObjectLightmap LayoutFinder::find(std::string name, std::vector<std::size_t> origins, int size) {
-    const std::size_t sets = source_.texcoord_sets(), asked = bake_.set.value_or(1);
+ObjectLightmap LayoutFinder::find(gltf::LitSource& source, std::string name,
+                                  std::vector<std::size_t> origins, int size) {
+    const std::size_t sets = source.texcoord_sets(), asked = bake_.set.value_or(1);
     ObjectLightmap found{.name = std::move(name), .origins = std::move(origins)};
-    const std::vector<ChartSide> sides = fronts_of_file(mesh_, source_, found.origins);
-    if (!bake_.new_set && !bake_.texels_per_metre && (asked < sets || bake_.set)) {
-        found.layout = {{}, size, bake_.margin};
-        std::string fault =
-            fault_of(gltf::places_in_set(source_, mesh_, sides, asked, found.origins), mesh_, size,
-                     found.layout.triangles);
+    const std::vector<ChartSide> sides = fronts_of_file(mesh_, source, found.origins);
+    const std::string coordinates = "TEXCOORD_" + std::to_string(asked);
+    if ((asked < sets || bake_.set) && takes(found, coordinates, size, [&] {
+            return gltf::places_in_set(source, mesh_, sides, asked, found.origins);
+        })) {
         found.set = asked;
-        if (fault.empty()) {
-            add_to_memory(size);
-            return found;
-        }
-        fault = "TEXCOORD_" + std::to_string(asked) + " of the file cannot be used, as " + fault;
-        if (bake_.set)
-            throw InputError(source_.path(),
-                             fault + "; --lightmap-uv new makes an atlas of its own");
-        faults_.push_back(std::move(fault));
+        return found;
     }
     found.set = std::max<std::size_t>(sets, 1);
+    new_coordinates_ = "TEXCOORD_" + std::to_string(found.set);
+    make_own(found, sides, size);
+    return found;
+}
+
+ObjectLightmap LayoutFinder::find(const LitObj& file, int size) {
+    ObjectLightmap found;
+    std::vector<ChartSide> sides;
+    const std::vector<Facet>& facets = mesh_.scene().facets;
+    for (std::uint32_t f = 0; f < facets.size(); ++f)
+        if (facets[f].face < file.faces().size()) // others are of emitters that were added
+            sides.push_back({f, false});
+    if (bake_.set.value_or(0) > 0)
+        throw InputError(file.path(), "an OBJ file has one set of texture coordinates; "
+                                      "--lightmap-uv 0 takes that, and new an atlas");
+    if ((!file.places().empty() || bake_.set) && takes(found, "vt", size, [&] {
+            PlacesOfObj places = places_in_obj(file, mesh_, sides);
+            return gltf::PlacesOfFile{std::move(places.triangles), std::move(places.without),
+                                      std::move(places.outside)};
+        }))
+        return found;
+    new_coordinates_ = file.places().empty() ? "vt" : "vt in place of those of the file";
+    make_own(found, sides, size);
+    return found;
+}
+
+template <class FindPlaces>
+bool LayoutFinder::takes(ObjectLightmap& found, const std::string& coordinates, int size,
+                         const FindPlaces& find_places) {
+    if (bake_.new_set || bake_.texels_per_metre)
+        return false;
+    found.layout = {{}, size, bake_.margin};
+    std::string fault = fault_of(find_places(), mesh_, size, found.layout.triangles);
+    if (fault.empty()) {
+        add_to_memory(size);
+        return true;
+    }
+    fault = coordinates + " of the file cannot be used, as " + fault;
+    if (bake_.set)
+        throw InputError(settings_.scene.path,
+                         fault + "; --lightmap-uv new makes an atlas of its own");
+    faults_.push_back(std::move(fault));
+    return false;
+}
+
+void LayoutFinder::make_own(ObjectLightmap& found, std::span<const ChartSide> sides, int size) {
     found.is_new = true;
     new_sets_.push_back(found.name);
     found.layout = own_layout(sides, size);
     add_to_memory(found.layout.size);
-    return found;
 }
 
 void LayoutFinder::log_new_sets() const {
@@ -201,22 +247,64 @@ void LayoutFinder::log_new_sets() const {
             "so it is with " + counted(faults_.size() - 1, "more object", "more objects") + "; ";
     text += bake_.per_object ? "lightmaps of these objects have coordinates of their own, "
                              : "the lightmap has coordinates of its own, ";
-    text += "TEXCOORD_" + std::to_string(std::max<std::size_t>(source_.texcoord_sets(), 1));
+    text += new_coordinates_;
     if (bake_.per_object)
         text += ": " + list_names(new_sets_, max_names);
     log_line(settings_.verbosity, Verbosity::normal, text);
 }
 
-/// Returns the normals of the file; warns where it has none.
-std::vector<CornerNormals> smooth_normals(const SolveSettings& settings, gltf::LitSource& source,
-                                          const Mesh& mesh, std::vector<std::string>& warnings) {
-    std::vector<CornerNormals> normals = gltf::normals_of_file(source, mesh);
+/// Returns the normals that a file has, as far as they are asked for; warns where it has none.
+std::vector<CornerNormals> smooth_normals(const SolveSettings& settings,
+                                          std::vector<CornerNormals> normals,
+                                          std::vector<std::string>& warnings) {
     if (std::ranges::any_of(normals, [](const CornerNormals& of) { return of != CornerNormals{}; }))
         return normals;
-    warnings.push_back(settings.scene.path + ": no primitive has normals, so --normals smooth "
-                                             "changes nothing");
+    warnings.push_back(settings.scene.path + ": no face has normals, so --normals smooth changes "
+                                             "nothing");
     log_warnings(settings.verbosity, {warnings.back()});
     return {};
+}
+
+/// Checks that the faces of an OBJ file are still those that were read.
+void check_unchanged(const LitObj& file, const Mesh& mesh) {
+    for (const Facet& facet : mesh.scene().facets) {
+        if (facet.face >= file.faces().size())
+            continue;
+        const auto corners = file.corners_of(facet.face);
+        for (const std::uint32_t vertex : facet.vertex)
+            if (std::ranges::find(corners, vertex, &LitObj::Corner::vertex) == corners.end())
+                throw InputError(file.path(), "the file has changed since it was read");
+    }
+}
+
+FileLightmap lightmap_of_obj(const SolveSettings& settings, const Mesh& mesh, int size,
+                             std::vector<std::string>& warnings) {
+    const std::string& path = settings.scene.path;
+    FileLightmap found;
+    found.obj = std::make_unique<LitObj>(path);
+    check_unchanged(*found.obj, mesh);
+    const auto folder = [](const std::string& file) {
+        std::error_code error;
+        return std::filesystem::weakly_canonical(std::filesystem::path(file).parent_path() / ".",
+                                                 error);
+    };
+    if (found.obj->has_libraries() && folder(path) != folder(settings.outputs.front().path)) {
+        warnings.push_back(path + ": mtllib names files that lie beside it, and not beside " +
+                           settings.outputs.front().path);
+        log_warnings(settings.verbosity, {warnings.back()});
+    }
+    if (settings.file_bake.smooth)
+        found.normals = smooth_normals(settings, normals_of_obj(*found.obj, mesh), warnings);
+    LayoutFinder finder(settings, mesh);
+    found.parts.push_back(finder.find(*found.obj, size));
+    finder.log_new_sets();
+    if (found.parts.front().is_new && !found.obj->places().empty()) {
+        warnings.push_back(path + ": faces refer to the atlas in place of the vt of the file, by "
+                                  "which its textures lie");
+        log_warnings(settings.verbosity, {warnings.back()});
+    }
+    found.parts.front().layout.normals = found.normals;
+    return found;
 }
 
 } // namespace
@@ -241,6 +329,9 @@ FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
                               std::vector<std::string>& warnings) {
     const FileBakeSettings& bake = settings.file_bake;
     const std::string& path = settings.scene.path;
+    const int size = settings.lightmap.value_or(FileBakeSettings::default_size);
+    if (is_obj(path))
+        return lightmap_of_obj(settings, mesh, size, warnings);
     FileLightmap found;
     found.source =
         std::make_unique<gltf::LitSource>(path, memory_guard(path, settings.scene.memory),
@@ -249,13 +340,13 @@ FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
     constexpr double copies = 4; // buffers, as one, and both as they are written
     memory_guard(path, settings.scene.memory)(copies * found.source->bytes());
     if (bake.smooth)
-        found.normals = smooth_normals(settings, *found.source, mesh, warnings);
-    const int size = settings.lightmap.value_or(FileBakeSettings::default_size);
-    LayoutFinder finder(settings, mesh, *found.source);
+        found.normals =
+            smooth_normals(settings, gltf::normals_of_file(*found.source, mesh), warnings);
+    LayoutFinder finder(settings, mesh);
     if (!bake.per_object) {
         std::vector<std::size_t> all(found.source->origins().size());
         std::iota(all.begin(), all.end(), std::size_t{0});
-        found.parts.push_back(finder.find("", std::move(all), size));
+        found.parts.push_back(finder.find(*found.source, "", std::move(all), size));
     } else {
         const std::vector<ObjectOfFile> objects = objects_of(*found.source, mesh);
         double largest = 0;
@@ -263,7 +354,7 @@ FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
             largest = std::max(largest, object.area);
         for (const ObjectOfFile& object : objects) {
             const double side = std::ceil(size * std::sqrt(object.area / largest));
-            found.parts.push_back(finder.find(object.name, object.origins,
+            found.parts.push_back(finder.find(*found.source, object.name, object.origins,
                                               std::max(static_cast<int>(side), min_size)));
         }
     }

@@ -4,6 +4,7 @@
 #include "app/settings/settings.h"
 #include "io/gltf/lit_source.h"
 #include "io/lightmaps/texel_map.h"
+#include "io/scene_files/lit_obj.h"
 #include "radiosity/paper/solution/solution.h"
 
 #include <cstddef>
@@ -33,7 +34,8 @@ struct ObjectLightmap {
 
 /// The scene's own file, and its lightmaps: one, or one for each object.
 struct FileLightmap {
-    std::unique_ptr<gltf::LitSource> source;
+    std::unique_ptr<gltf::LitSource> source; ///< of a glTF file
+    std::unique_ptr<LitObj> obj;             ///< of an OBJ file instead
     std::vector<CornerNormals> normals; ///< by facet; empty: not asked for, or the file has none
     std::vector<ObjectLightmap> parts;
 };

@@ -2,7 +2,9 @@
 
 #include "app/rendering/view.h"
 #include "geometry/elementary.h"
+#include "io/files/atomic_file.h"
 #include "io/gltf/lit_file.h"
+#include "io/lightmaps/obj_places.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
@@ -69,6 +71,15 @@ double exposure_of(std::span<const Image> lightmaps) {
     return auto_exposure(all);
 }
 
+/// Returns the triangles of a layout with places in [0,1].
+std::vector<PlacedTriangle> in_unit_square(const LightmapLayout& layout) {
+    std::vector<PlacedTriangle> triangles = layout.triangles;
+    for (PlacedTriangle& triangle : triangles)
+        for (Vec2& place : triangle.place)
+            place /= double(layout.size);
+    return triangles;
+}
+
 LightmapPicture picture_of(const ObjectLightmap& part, const Image& lightmap, const Mesh& mesh,
                            gltf::LitSource& source, const SolveSettings& settings,
                            const Display& display) {
@@ -84,18 +95,24 @@ LightmapPicture picture_of(const ObjectLightmap& part, const Image& lightmap, co
         picture.name += " " + part.name;
     if (!part.is_new)
         return picture;
-    std::vector<PlacedTriangle> in_unit_square = part.layout.triangles;
-    for (PlacedTriangle& triangle : in_unit_square)
-        for (Vec2& place : triangle.place)
-            place /= double(part.layout.size);
-    picture.coordinates = gltf::atlas_coordinates(source, mesh, in_unit_square, part.origins);
+    picture.coordinates =
+        gltf::atlas_coordinates(source, mesh, in_unit_square(part.layout), part.origins);
     return picture;
+}
+
+/// Writes the OBJ file as it is, or with an atlas as its texture coordinates.
+void write_lit_obj(const std::string& path, const Mesh& mesh, const LitObj& file,
+                   const ObjectLightmap& part) {
+    write_atomically(path, part.is_new ? text_with_atlas(file, mesh, in_unit_square(part.layout))
+                                       : file.text());
 }
 
 } // namespace
 
 void write_lit_file(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
                     const FileLightmap& file, std::span<const Image> lightmaps) {
+    if (file.obj)
+        return write_lit_obj(path, mesh, *file.obj, file.parts.front());
     const bool is_occlusion = settings.file_bake.occlusion;
     Display display = display_of(settings.view);
     if (!settings.view.exposure && !is_occlusion)

@@ -176,6 +176,7 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
     case OutputKind::exr:
         return picture.write(output, settings.from, settings.verbosity);
     case OutputKind::ply:
+    case OutputKind::obj:
     case OutputKind::glb:
         if (settings.file_bake.asked)
             return write_gathered_file(settings, output.path, results, report);

@@ -25,7 +25,7 @@ using RoleAndPath = std::pair<std::string, std::string>;
 std::vector<std::string> paths_of_lightmaps(const SolveSettings& settings) {
     std::vector<std::string> paths;
     for (const Output& output : settings.outputs)
-        if (settings.lightmap && output.kind == OutputKind::glb) {
+        if (settings.lightmap && is_own_file(output.kind)) {
             if (output.path == standard_output)
                 throw UsageError("a lightmap takes its name from the .glb file; -o -.glb has none");
             if (!settings.file_bake.per_object) // else check_object_files() knows them
@@ -104,10 +104,21 @@ void check_bake(const SolveSettings& settings) {
     if (!settings.file_bake.asked)
         return;
     const std::string extension = extension_of(settings.scene.path);
-    if (extension != ".gltf" && extension != ".glb")
+    const bool is_obj_scene = is_obj(settings.scene.path);
+    if (extension != ".gltf" && extension != ".glb" && !is_obj_scene)
         throw UsageError(
-            "bake is for glTF files (.gltf, .glb); for '" + settings.scene.path +
+            "bake is for glTF and OBJ files (.gltf, .glb, .obj); for '" + settings.scene.path +
             "' hemilux solve -o lit.glb --lightmap 1024 writes a mesh with a lightmap");
+    if (is_obj_scene != is_obj(settings.outputs.front().path))
+        throw UsageError(is_obj_scene
+                             ? "bake writes an OBJ file as it is; name it -o lit.obj (hemilux "
+                               "solve -o lit.glb --lightmap 1024 writes a mesh of its own)"
+                             : "bake writes a glTF file as it is; name it -o lit.glb");
+    if (is_obj_scene && settings.file_bake.per_object)
+        throw UsageError("--per-object is for glTF files");
+    if (is_obj_scene && settings.file_bake.binding != Binding::texture)
+        throw UsageError("materials of OBJ files have no place for their light; --bind texture "
+                         "writes texture coordinates alone");
     if (std::filesystem::exists(settings.scene.path))
         check_input(settings.scene.path, InputKind::regular);
 }

@@ -11,7 +11,7 @@
 
 namespace hemilux {
 
-enum class OutputKind { png, hdr, exr, ply, glb, vtu, csv, json };
+enum class OutputKind { png, hdr, exr, ply, glb, obj, vtu, csv, json };
 
 /// A file that the user asked for.
 struct Output {
@@ -21,6 +21,11 @@ struct Output {
 
 [[nodiscard]] constexpr bool is_picture(OutputKind kind) {
     return kind == OutputKind::png || kind == OutputKind::hdr || kind == OutputKind::exr;
+}
+
+/// Returns whether `bake` writes it: the scene's own file.
+[[nodiscard]] constexpr bool is_own_file(OutputKind kind) {
+    return kind == OutputKind::glb || kind == OutputKind::obj;
 }
 
 /// Returns the kind of output by the extension of the path, in small or capital letters; empty if

@@ -7,15 +7,14 @@
 #include "io/gltf/instances.h"
 #include "io/gltf/scene_meshes.h"
 #include "io/lightmaps/chart_regions.h"
+#include "io/lightmaps/joined_charts.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <numeric>
 #include <system_error>
-#include <tuple>
 #include <utility>
 
 namespace hemilux::gltf {
@@ -41,42 +40,6 @@ std::string file_of(const ImageInfo& image, const std::string& scene, const std:
 /// Returns which corner of a facet is this vertex of the scene.
 std::size_t corner_of(const Facet& facet, std::uint32_t vertex) {
     return static_cast<std::size_t>(std::ranges::find(facet.vertex, vertex) - facet.vertex.begin());
-}
-
-/// Sets of triangles that are joined (union and find).
-class Joined {
-  public:
-    explicit Joined(std::size_t count) : of_(count) {
-        std::iota(of_.begin(), of_.end(), std::size_t{0});
-    }
-    std::size_t find(std::size_t k) {
-        while (of_[k] != k)
-            k = of_[k] = of_[of_[k]];
-        return k;
-    }
-    void join(std::size_t a, std::size_t b) { of_[find(b)] = find(a); }
-
-  private:
-    std::vector<std::size_t> of_;
-};
-
-/// Numbers the charts: triangles that share an end in both the set and the scene.
-void find_charts_of(const Mesh& mesh, std::vector<PlacedTriangle>& triangles) {
-    using End = std::tuple<double, double, double, double, double>;
-    std::map<End, std::size_t> at;
-    Joined joined(triangles.size());
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-        const auto corners = corners_of(mesh, triangles[t]);
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const Vec2& place = triangles[t].place[k];
-            const auto [found, is_new] =
-                at.try_emplace(End(place.x, place.y, corners[k].x, corners[k].y, corners[k].z), t);
-            if (!is_new)
-                joined.join(found->second, t);
-        }
-    }
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        triangles[t].chart = static_cast<std::uint32_t>(joined.find(t));
 }
 
 void add_once(std::vector<std::uint32_t>& groups, std::uint32_t group) {
@@ -237,7 +200,7 @@ PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh, std::span<const 
             found.triangles.push_back(placed);
         }
     }
-    find_charts_of(mesh, found.triangles);
+    join_charts(mesh, found.triangles);
     return found;
 }
 

@@ -82,7 +82,7 @@ TEST_CASE("--normals smooth changes texels of objects with normals alone") {
         place.hemilux("bake flat.gltf -o flat.glb --normals smooth --error 10% --max-rays 200000 "
                       "--gather 4 --lightmap 64");
     CHECK(without.code == 0);
-    CHECK_THAT(without.err, Contains("no primitive has normals"));
+    CHECK_THAT(without.err, Contains("no face has normals"));
     REQUIRE(place.hemilux("bake flat.gltf -o facet.glb" + std::string(fast)).code == 0);
     const auto picture = [&](const std::string& name) {
         const Glb glb = glb_from(place.read(name));
