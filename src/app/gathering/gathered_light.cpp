@@ -180,7 +180,7 @@ Errors Gathering::gather_until_right(const std::string& what, const ReadError& r
                      percent(errors.noise) + ", that of the light which it reads " +
                      percent(errors.read.error));
         if (settings_.gather || errors.bound() <= error_ || 2 * rays > max_rays ||
-            errors.read.bound > error_ || monitor_.interrupted)
+            !(errors.read.bound <= error_) || monitor_.interrupted)
             break;
         if (errors.noise > helps * before && std::exchange(alone, true))
             break;
@@ -363,6 +363,19 @@ GatheredLight Gathering::finish() {
     return std::move(light_);
 }
 
+/// Warns of objects of which no texel was judged: coordinates that fill little of a small lightmap
+/// leave none within their triangles.
+void warn_of_unknown_errors(const SolveSettings& settings, const Statistics& statistics) {
+    const auto unknown = std::ranges::count_if(
+        statistics.objects, [](const ObjectFigures& of) { return !std::isfinite(of.bound); });
+    if (unknown > 0)
+        log_line(settings.verbosity, Verbosity::normal,
+                 "warning: the error of " +
+                     counted(static_cast<std::uint64_t>(unknown), "object", "objects") +
+                     " is not known, as their lightmaps have too few texels; a larger --lightmap "
+                     "or --lightmap-uv new has more");
+}
+
 bool has_gathered_picture(const SolveSettings& settings) {
     return settings.gather_pictures &&
            std::ranges::any_of(settings.outputs, is_picture, &Output::kind);
@@ -392,6 +405,7 @@ GatheredLight gather_light(const SolveSettings& settings, const LitScene& scene,
     for (const NamedLayout& lightmap : lightmaps)
         if (!lightmap.layout.triangles.empty())
             gathering.find_lightmap(lightmap);
+    warn_of_unknown_errors(settings, statistics);
     try {
         if (has_gathered_picture(settings))
             gathering.find_picture(camera);
