@@ -137,7 +137,8 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     if (bake_command.parsed()) {
         bake_settings.from = provenance(bake_command, bake_settings.options.seed);
         bake_settings.given = bake_command.options_given();
-        return solve(bake_settings);
+        return bake_settings.file_bake.occlusion ? bake_occlusion(bake_settings)
+                                                 : solve(bake_settings);
     }
     if (dim_command.parsed()) {
         dim_settings.from = provenance(dim_command, 0);

@@ -69,13 +69,17 @@ bool write_lit(const std::string& path, const ReadResult& read, const std::strin
                Binding binding, bool with_coordinates) {
     try {
         gltf::LitSource source(path, guard, Outside::refused, read.origins);
-        LightmapOfFile lightmap{.png = "no picture", .binding = binding};
+        LightmapOfFile lightmap{.pictures = {{.png = "no picture"}}, .binding = binding};
+        LightmapPicture& picture = lightmap.pictures.front();
+        for (std::size_t o = 0; o < source.origins().size(); ++o)
+            picture.origins.push_back(o);
         if (with_coordinates) {
             const std::optional<Mesh> mesh = mesh_of(read.scene);
             if (!mesh)
                 return false;
-            lightmap.set = source.texcoord_sets();
-            lightmap.coordinates = gltf::atlas_coordinates(source, *mesh, charts_of(mesh->scene()));
+            picture.set = source.texcoord_sets();
+            picture.coordinates =
+                gltf::atlas_coordinates(source, *mesh, charts_of(mesh->scene()), picture.origins);
         }
         write_lit_glb(lit, source, lightmap);
         return true;

@@ -31,6 +31,16 @@ void add_stop_options(Command command, StopRule& stop) {
         "after N rays, even if the error is not reached [1e8 and 1000 a patch]");
 }
 
+void add_layers_option(Command command, std::optional<LayersBy>& layers) {
+    add_choice<LayersBy>(
+        command, "--layers",
+        {{LayersBy::lamp, "lamp"}, {LayersBy::group, "group"}, {LayersBy::material, "material"}},
+        "also the light of each lamp, of the sun and of the sky by itself, by faces that touch, by "
+        "group or by material: in columns of .csv and of --points-output, in layers of .exr "
+        "pictures and lightmaps, in --report; `hemilux dim` gives them other powers",
+        [&layers](LayersBy by) { layers = by; });
+}
+
 namespace {
 
 void add_plain_option(Command command, bool& plain) {
@@ -162,16 +172,6 @@ void add_target_option(Command command, TargetSettings& target) {
                             add_target(text, target);
                     })
         .repeatable();
-}
-
-void add_layers_option(Command command, std::optional<LayersBy>& layers) {
-    add_choice<LayersBy>(
-        command, "--layers",
-        {{LayersBy::lamp, "lamp"}, {LayersBy::group, "group"}, {LayersBy::material, "material"}},
-        "also the light of each lamp, of the sun and of the sky by itself, by faces that touch, by "
-        "group or by material: in columns of .csv and of --points-output, in layers of .exr "
-        "pictures and lightmaps, in --report; `hemilux dim` gives them other powers",
-        [&layers](LayersBy by) { layers = by; });
 }
 
 void add_error_map_option(Command command, SolveSettings& settings) {

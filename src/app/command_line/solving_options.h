@@ -4,6 +4,7 @@
 #include "app/command_line/arguments.h"
 #include "app/settings/settings.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ inline constexpr const char* comparison_group = "Comparison";
 void add_method_options(Command command, SolveOptions& options);
 /// Adds --steps, --time, --error and --max-rays.
 void add_stop_options(Command command, StopRule& stop);
+/// Adds --layers.
+void add_layers_option(Command command, std::optional<LayersBy>& layers);
 /// Adds --detail.
 void add_detail_option(Command command, std::vector<std::string>& detail);
 

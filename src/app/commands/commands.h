@@ -9,6 +9,8 @@ struct DimSettings;        // dim_settings.h
 struct ViewFactorSettings; // view_factor_settings.h
 
 int solve(const SolveSettings& settings);
+/// Writes the scene's own file with its ambient occlusion; nothing is solved.
+int bake_occlusion(const SolveSettings& settings);
 int compare(const CompareSettings& settings);
 int density(DensitySettings settings);
 int formfactors(const FormFactorSettings& settings);

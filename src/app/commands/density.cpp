@@ -215,7 +215,7 @@ int density(DensitySettings settings) {
     InterruptGuard guard;
     const GeometryUse use{[&](double patches) { return bytes_of_drawings(settings, patches); },
                           "a larger --max-edge, a smaller --depth and a smaller --size need less"};
-    const auto [mesh, view] =
+    const auto [mesh, view, origins, warnings] =
         load_geometry(settings.scene, files, settings.options, use, settings.verbosity);
     if (draws_pictures)
         settings.view = view_of(settings.view, view, settings.verbosity);

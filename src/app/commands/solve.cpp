@@ -42,9 +42,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <filesystem>
 #include <span>
-#include <system_error>
 
 namespace hemilux {
 
@@ -100,32 +98,10 @@ bool has_pictures(const SolveSettings& settings) {
            !settings.error_map.empty();
 }
 
-/// Returns the bytes of the scene's own file while it is written again: its buffers, their copy and
-/// its JSON.
-double bytes_of_own_file(const SolveSettings& settings) {
-    constexpr double copies = 4;
-    std::error_code error;
-    const auto size = std::filesystem::file_size(settings.scene.path, error);
-    return settings.file_bake.asked && !error ? copies * static_cast<double>(size) : 0;
-}
-
 /// Returns the bytes of a table that is kept until the patches are divided.
 double bytes_of_table(const PatchTable& table) {
     constexpr double bytes_per_row = sizeof(double) + 3 * sizeof(Vec3);
     return bytes_per_row * static_cast<double>(table.area.size());
-}
-
-/// Adds and logs what reading the file again has noticed, where reading it first has not warned of
-/// files outside of its folder.
-void warn_once(std::vector<std::string>& warnings, const std::vector<std::string>& more,
-               Verbosity verbosity) {
-    const auto is_outside = [](const std::string& text) {
-        return text.find(outside_warning) != std::string::npos;
-    };
-    if (std::ranges::any_of(warnings, is_outside))
-        return;
-    log_warnings(verbosity, more);
-    warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
 /// Reads the files of the run; checks its options first, and then what they are for this scene.
@@ -166,9 +142,7 @@ Loaded load(SolveSettings settings) {
     check_plain(settings, mesh.patches().size());
     FileLightmap file_lightmap;
     if (settings.file_bake.asked)
-        file_lightmap = lightmap_of_file(settings, mesh, scene.origins);
-    if (file_lightmap.source)
-        warn_once(scene.warnings, file_lightmap.source->warnings(), settings.verbosity);
+        file_lightmap = lightmaps_to_write(settings, mesh, scene.origins, scene.warnings);
     (void)detail_mask(mesh, settings.detail); // names only groups of the scene
     return {std::move(settings),      std::move(resumed),   std::move(points),
             std::move(target_points), std::move(reference), std::move(scene),
@@ -328,17 +302,23 @@ LitScene lit_scene(const Problem& problem, const Solution& solution) {
             problem.settings().options.threads};
 }
 
-/// Returns where surfaces lie in the lightmap, if one is gathered.
-LightmapLayout lightmap_layout(const Problem& problem) {
+/// Returns where surfaces lie in the lightmaps that are gathered.
+std::vector<NamedLayout> lightmap_layouts(const Problem& problem) {
     const SolveSettings& settings = problem.settings();
-    if (settings.file_bake.asked || !gathers_lightmap(settings))
-        return problem.loaded.file_lightmap.layout;
+    std::vector<NamedLayout> layouts;
+    if (settings.file_bake.asked || !gathers_lightmap(settings)) {
+        for (const ObjectLightmap& part : problem.loaded.file_lightmap.parts)
+            layouts.push_back({part.name, part.layout});
+        return layouts;
+    }
     try {
         const int size = *settings.lightmap;
-        return {placed_triangles(problem.mesh(), find_charts(problem.mesh(), size)), size, gutter};
+        layouts.push_back(
+            {"",
+             {placed_triangles(problem.mesh(), find_charts(problem.mesh(), size)), size, gutter}});
     } catch (const LightmapTooSmall&) { // which the output that fails reports
-        return {};
     }
+    return layouts;
 }
 
 /// The light of the outputs.
@@ -356,20 +336,20 @@ GivenLight give_light(const Problem& problem, Run& done, const Solution& solutio
         return {};
     const LitScene lit = lit_scene(problem, solution);
     const bool gathers_here = gathers(settings) && settings.ranks->is_first();
-    LightmapLayout layout;
+    std::vector<NamedLayout> layouts;
     GivenLight given;
     if (gathers_here) {
         const OnThisRank works_alone(problem.monitor.interrupted);
         if (has_pictures(settings) && !done.camera)
             done.camera = shown_camera_of(settings.view, lit, settings.verbosity);
-        layout = lightmap_layout(problem);
+        layouts = lightmap_layouts(problem);
         given.gathered =
             gather_light(settings, lit, solution, problem.loaded.points,
-                         done.camera.value_or(Camera()), layout, problem.monitor, statistics);
+                         done.camera.value_or(Camera()), layouts, problem.monitor, statistics);
     }
     given.lamps = find_lamp_light(settings,
                                   {lit, *done.solver, solution, given.gathered,
-                                   problem.loaded.points, done.camera.value_or(Camera()), layout},
+                                   problem.loaded.points, done.camera.value_or(Camera()), layouts},
                                   problem.monitor, statistics);
     return given;
 }

@@ -59,7 +59,7 @@ bool gives_gathered_light(const SolveSettings& settings) {
     const bool is_of_patches =
         !settings.error_map.empty() || !settings.report.empty() ||
         !std::ranges::all_of(settings.outputs, [&](const Output& output) {
-            if (output.kind == OutputKind::glb && settings.file_bake.asked)
+            if (is_own_file(output.kind) && settings.file_bake.asked)
                 return true;
             return is_picture(output.kind) && output.kind != OutputKind::exr; // layers of patches
         });

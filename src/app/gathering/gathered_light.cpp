@@ -56,6 +56,7 @@ struct Errors {
     double noise = 0;             ///< of their own, relative [-]
     double noise_uncertainty = 0; ///< one sigma
     double noise_local = 0;       ///< what 95 of 100 places are within, relative to their light [-]
+    unsigned rays = 0;            ///< at a point, of the last gather
 
     [[nodiscard]] double whole() const { return elementary::hypot(read.error, noise); }
     [[nodiscard]] double bound() const {
@@ -87,7 +88,7 @@ class Gathering {
 
     void find_points(std::span<const NamedPoint> points);
     void find_picture(const Camera& camera);
-    void find_lightmap(const LightmapLayout& layout);
+    void find_lightmap(const NamedLayout& named);
     /// Returns what was found, and enters the errors.
     [[nodiscard]] GatheredLight finish();
 
@@ -97,8 +98,8 @@ class Gathering {
     [[nodiscard]] ReadError learn(std::span<const TargetPart> target, std::uint64_t seed,
                                   std::optional<double> seconds = {});
     template <class Gather, class Judge>
-    void gather_until_right(const std::string& what, const ReadError& read, const Gather& gather,
-                            const Judge& judge, std::uint64_t seed);
+    Errors gather_until_right(const std::string& what, const ReadError& read, const Gather& gather,
+                              const Judge& judge, std::uint64_t seed);
     void add(const Errors& errors) {
         if (!errors_ || errors.bound() > errors_->bound())
             errors_ = errors;
@@ -119,6 +120,7 @@ class Gathering {
     Stopwatch started_;
     double error_;
     GatheredLight light_;
+    bool shows_patches_ = false;   ///< some lightmap, after a signal
     std::optional<Errors> errors_; ///< the larger ones of points and of the picture
 };
 
@@ -141,8 +143,8 @@ ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t see
 /// most of the error lies between the points of the grid, as in small pictures. Where the error
 /// itself is asked for, more pixels are judged.
 template <class Gather, class Judge>
-void Gathering::gather_until_right(const std::string& what, const ReadError& read,
-                                   const Gather& gather, const Judge& judge, std::uint64_t seed) {
+Errors Gathering::gather_until_right(const std::string& what, const ReadError& read,
+                                     const Gather& gather, const Judge& judge, std::uint64_t seed) {
     constexpr unsigned max_rays = 256;
     constexpr std::uint64_t usual_pixels = 512, max_more = 64;
     constexpr double helps = .85;
@@ -165,6 +167,7 @@ void Gathering::gather_until_right(const std::string& what, const ReadError& rea
         {
             const Stage stage("gathering the " + what, settings_.verbosity);
             const Stopwatch watch;
+            errors.rays = rays;
             gather(rays, alone);
             statistics_.seconds_gather += watch.seconds();
         }
@@ -177,7 +180,7 @@ void Gathering::gather_until_right(const std::string& what, const ReadError& rea
                      percent(errors.noise) + ", that of the light which it reads " +
                      percent(errors.read.error));
         if (settings_.gather || errors.bound() <= error_ || 2 * rays > max_rays ||
-            errors.read.bound > error_ || monitor_.interrupted)
+            !(errors.read.bound <= error_) || monitor_.interrupted)
             break;
         if (errors.noise > helps * before && std::exchange(alone, true))
             break;
@@ -190,6 +193,7 @@ void Gathering::gather_until_right(const std::string& what, const ReadError& rea
          more *= 4)
         judge_by(more);
     add(errors);
+    return errors;
 }
 
 /// Finds the faces that points lie on. Returns whether it came to the end before a signal.
@@ -299,12 +303,17 @@ void Gathering::find_picture(const Camera& camera) {
 }
 
 /// A signal leaves the light of patches in it.
-void Gathering::find_lightmap(const LightmapLayout& layout) {
+void Gathering::find_lightmap(const NamedLayout& named) {
+    const auto& [object, layout] = named;
     const Mesh& mesh = scene_.mesh;
     const SurfaceLight& light = light_.cache->light();
+    const auto seed = [&](std::uint64_t use) {
+        return light_.lightmaps.empty() ? seed_of(use)
+                                        : hash_words({seed_of(use), light_.lightmaps.size()});
+    };
     std::vector<PlacedTriangle> triangles = layout.triangles;
     show_brighter_sides(mesh, solution_, triangles);
-    const TexelMap texels(mesh, std::move(triangles), layout.size);
+    const TexelMap texels = texels_of(layout, std::move(triangles), mesh, scene_.tracer);
     LightmapOptions options{.bake = settings_.bake, .check = [this] {
                                 if (time_.is_over())
                                     throw Interrupted();
@@ -314,26 +323,33 @@ void Gathering::find_lightmap(const LightmapLayout& layout) {
         const std::vector<bool> covered =
             find_covered(mesh, scene_.tracer, texels, options.check, workers_);
         const ReadError read =
-            learn(lightmap_parts(mesh, texels, covered, settings_.bake, seed_of(10)), seed_of(11));
-        gather_until_right(
-            "lightmap", read,
+            learn(lightmap_parts(mesh, texels, covered, settings_.bake, seed(10)), seed(11));
+        const Errors errors = gather_until_right(
+            object.empty() ? "lightmap" : "lightmap of " + object, read,
             [&](unsigned of_point, bool) {
                 options.rays = of_point;
                 found =
                     gather_lightmap(mesh, scene_.tracer, light, texels, covered, options, workers_);
             },
-            [&](std::size_t pixels, std::uint64_t seed) {
+            [&](std::size_t pixels, std::uint64_t judge_seed) {
                 return lightmap_error(mesh, scene_.tracer, light, texels, found, settings_.bake,
-                                      pixels, seed, workers_);
+                                      pixels, judge_seed, workers_);
             },
-            seed_of(12));
+            seed(12));
+        if (!object.empty())
+            statistics_.objects.push_back(
+                {object, static_cast<std::uint64_t>(std::ranges::count(found.known, true)),
+                 errors.rays, errors.whole(), errors.bound()});
     } catch (const Interrupted&) {
-        log_line(settings_.verbosity, Verbosity::quiet,
-                 "interrupted; the lightmap shows the light of the patches");
+        if (!std::exchange(shows_patches_, true))
+            log_line(settings_.verbosity, Verbosity::quiet,
+                     object.empty() ? "interrupted; the lightmap shows the light of the patches"
+                                    : "interrupted; the lightmaps of " + object +
+                                          " and later objects show the light of the patches");
         found = lightmap_of_patches(mesh, light, texels, settings_.bake);
     }
     fill_texels(found, texels, layout.margin);
-    light_.lightmap = std::move(found.image);
+    light_.lightmaps.push_back(std::move(found.image));
 }
 
 GatheredLight Gathering::finish() {
@@ -349,6 +365,19 @@ GatheredLight Gathering::finish() {
     return std::move(light_);
 }
 
+/// Warns of objects of which no texel was judged: coordinates that fill little of a small lightmap
+/// leave none within their triangles.
+void warn_of_unknown_errors(const SolveSettings& settings, const Statistics& statistics) {
+    const auto unknown = std::ranges::count_if(
+        statistics.objects, [](const ObjectFigures& of) { return !std::isfinite(of.bound); });
+    if (unknown > 0)
+        log_line(settings.verbosity, Verbosity::normal,
+                 "warning: the error of " +
+                     counted(static_cast<std::uint64_t>(unknown), "object", "objects") +
+                     " is not known, as their lightmaps have too few texels; a larger --lightmap "
+                     "or --lightmap-uv new has more");
+}
+
 bool has_gathered_picture(const SolveSettings& settings) {
     return settings.gather_pictures &&
            std::ranges::any_of(settings.outputs, is_picture, &Output::kind);
@@ -358,8 +387,7 @@ bool has_gathered_picture(const SolveSettings& settings) {
 
 bool gathers_lightmap(const SolveSettings& settings) {
     return settings.lightmap && settings.gather_pictures &&
-           std::ranges::find(settings.outputs, OutputKind::glb, &Output::kind) !=
-               settings.outputs.end();
+           std::ranges::any_of(settings.outputs, is_own_file, &Output::kind);
 }
 
 bool gathers(const SolveSettings& settings) {
@@ -369,15 +397,17 @@ bool gathers(const SolveSettings& settings) {
 
 GatheredLight gather_light(const SolveSettings& settings, const LitScene& scene,
                            const Solution& solution, std::span<const NamedPoint> points,
-                           const Camera& camera, const LightmapLayout& lightmap, Monitor& monitor,
-                           Statistics& statistics) {
+                           const Camera& camera, std::span<const NamedLayout> lightmaps,
+                           Monitor& monitor, Statistics& statistics) {
     if (!gathers(settings))
         return {};
     Gathering gathering(settings, scene, solution, monitor, statistics);
     if (!points.empty())
         gathering.find_points(points);
-    if (!lightmap.triangles.empty())
-        gathering.find_lightmap(lightmap);
+    for (const NamedLayout& lightmap : lightmaps)
+        if (!lightmap.layout.triangles.empty())
+            gathering.find_lightmap(lightmap);
+    warn_of_unknown_errors(settings, statistics);
     try {
         if (has_gathered_picture(settings))
             gathering.find_picture(camera);

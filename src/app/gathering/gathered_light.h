@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace hemilux {
@@ -25,10 +26,16 @@ struct GatheredLight {
     std::unique_ptr<LightCache> cache; ///< empty: nothing is gathered
     std::vector<Sensor> sensors;       ///< by point of --points
     LightAtPoints points;
-    std::optional<Image> picture;  ///< empty: none was asked for, or a signal ended it
-    std::optional<Image> lightmap; ///< empty: none was asked for
+    std::optional<Image> picture; ///< empty: none was asked for, or a signal ended it
+    std::vector<Image> lightmaps; ///< of the layouts; empty: none was asked for
     /// The relative error, the largest of what is given out [-]; NaN where it is not known.
     double error = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// A lightmap to be gathered, of an object of this name or, without one, of all.
+struct NamedLayout {
+    std::string object;
+    LightmapLayout layout;
 };
 
 /// Returns whether any output shows gathered light.
@@ -37,14 +44,13 @@ struct GatheredLight {
 /// Returns whether lightmaps show gathered light.
 [[nodiscard]] bool gathers_lightmap(const SolveSettings& settings);
 
-/// Learns the light, and gathers that of points. `camera` is that of pictures, `lightmap` where
-/// surfaces lie in one; it has none where it is empty. Everything that is
-/// referred to must outlive the result. Enters the error into the statistics where only gathered
-/// light is given out.
+/// Learns the light, and gathers that of points. `camera` is that of pictures; `lightmaps` say
+/// where surfaces lie in each. Everything that is referred to must outlive the result. Enters the
+/// error into the statistics where only gathered light is given out.
 [[nodiscard]] GatheredLight gather_light(const SolveSettings& settings, const LitScene& scene,
                                          const Solution& solution,
                                          std::span<const NamedPoint> points, const Camera& camera,
-                                         const LightmapLayout& lightmap, Monitor& monitor,
+                                         std::span<const NamedLayout> lightmaps, Monitor& monitor,
                                          Statistics& statistics);
 
 } // namespace hemilux

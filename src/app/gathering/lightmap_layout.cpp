@@ -1,5 +1,6 @@
 #include "app/gathering/lightmap_layout.h"
 
+#include "app/gathering/objects_of_file.h"
 #include "app/memory/memory.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
@@ -10,11 +11,16 @@
 #include "io/files/input_file.h"
 #include "io/files/text_words.h"
 #include "io/lightmaps/charts.h"
+#include "io/lightmaps/obj_places.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <map>
+#include <numeric>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace hemilux {
@@ -26,6 +32,22 @@ constexpr double max_overlap = 1e-3;
 
 constexpr std::size_t max_names = 4;
 
+/// The least lightmap of an object [texels along a side].
+constexpr int min_size = 16;
+
+/// Adds and logs what reading the file again has noticed, where reading it first has not warned of
+/// files outside of its folder.
+void warn_once(std::vector<std::string>& warnings, const std::vector<std::string>& more,
+               Verbosity verbosity) {
+    const auto is_outside = [](const std::string& text) {
+        return text.find(outside_warning) != std::string::npos;
+    };
+    if (std::ranges::any_of(warnings, is_outside))
+        return;
+    log_warnings(verbosity, more);
+    warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
 std::vector<std::string> names_of(const std::vector<std::uint32_t>& groups, const Scene& scene) {
     std::vector<std::string> names;
     for (const std::uint32_t group : groups)
@@ -33,16 +55,17 @@ std::vector<std::string> names_of(const std::vector<std::uint32_t>& groups, cons
     return names;
 }
 
-/// Returns the front of each facet that a primitive of the file shows; the brighter sides are found
-/// later.
-std::vector<ChartSide> fronts_of_file(const Mesh& mesh,
-                                      const std::vector<PrimitiveOrigin>& origins) {
+/// Returns the front of each facet that these primitives show; the brighter sides are found later.
+std::vector<ChartSide> fronts_of_file(const Mesh& mesh, const gltf::LitSource& source,
+                                      std::span<const std::size_t> origins) {
     const std::vector<std::uint32_t> by_face = gltf::facets_by_face(mesh);
     std::vector<ChartSide> sides;
-    for (const PrimitiveOrigin& origin : origins)
+    for (const std::size_t o : origins) {
+        const PrimitiveOrigin& origin = source.origins()[o];
         for (std::uint32_t t = 0; t < origin.faces; ++t)
             if (const std::uint32_t f = by_face[origin.first_face + t]; f != none)
                 sides.push_back({f, false});
+    }
     return sides;
 }
 
@@ -80,70 +103,264 @@ std::string fault_of(const gltf::PlacesOfFile& places, const Mesh& mesh, int siz
     return text;
 }
 
-void check_memory_of(int size, const SolveSettings& settings) {
-    const std::optional<std::uint64_t>& limit = settings.scene.memory;
-    if (limit && bytes_of_lightmap(size, true) > double(*limit))
+/// Finds the layouts of lightmaps one after the other, all of which have to fit into the memory.
+class LayoutFinder {
+  public:
+    /// All arguments must outlive this object.
+    LayoutFinder(const SolveSettings& settings, const Mesh& mesh)
+        : settings_(settings), bake_(settings.file_bake), mesh_(mesh) {}
+
+    /// Returns the lightmap of these origins; it may be larger where its charts need that, but not
+    /// than --lightmap says.
+    [[nodiscard]] ObjectLightmap find(gltf::LitSource& source, std::string name,
+                                      std::vector<std::size_t> origins, int size);
+    /// Returns the lightmap of an OBJ file.
+    [[nodiscard]] ObjectLightmap find(const LitObj& file, int size);
+    /// Logs which objects have coordinates that the file has not, and why.
+    void log_new_sets() const;
+
+  private:
+    /// Takes the coordinates that the file has, if it may and nothing is wrong with them.
+    template <class FindPlaces>
+    [[nodiscard]] bool takes(ObjectLightmap& found, const std::string& coordinates, int size,
+                             const FindPlaces& find_places);
+    void make_own(ObjectLightmap& found, std::span<const ChartSide> sides, int size);
+    [[nodiscard]] LightmapLayout own_layout(std::span<const ChartSide> sides, int size);
+    void add_to_memory(int size);
+
+    const SolveSettings& settings_;
+    const FileBakeSettings& bake_;
+    const Mesh& mesh_;
+    double bytes_ = 0;            ///< of all lightmaps so far, once they are gathered
+    int largest_ = 0;             ///< texels along a side
+    std::string new_coordinates_; ///< as messages name them
+    std::vector<std::string> new_sets_, faults_; ///< names of objects, and what is wrong with those
+};
+
+/// One lightmap at a time is gathered, and all are kept until they are written.
+void LayoutFinder::add_to_memory(int size) {
+    bytes_ += bytes_of_lightmap(size, false);
+    largest_ = std::max(largest_, size);
+    const double gathered = bytes_of_lightmap(largest_, true) - bytes_of_lightmap(largest_, false);
+    const std::optional<std::uint64_t>& limit = settings_.scene.memory;
+    if (limit && bytes_ + gathered > double(*limit))
         throw std::runtime_error("a lightmap of " + std::to_string(size) + " x " +
-                                 std::to_string(size) +
-                                 " texels needs more memory than --memory allows");
+                                 std::to_string(size) + " texels" +
+                                 (bake_.per_object ? " after those of other objects" : "") +
+                                 " needs more memory than --memory allows");
 }
 
-LightmapLayout own_layout(const SolveSettings& settings, const Mesh& mesh,
-                          std::span<const ChartSide> sides) {
-    const FileBakeSettings& bake = settings.file_bake;
-    AtlasOptions options{.margin = bake.margin, .max_size = SolveSettings::max_lightmap};
-    if (bake.texels_per_metre)
-        options.density = *bake.texels_per_metre / mesh.frame().scale;
+LightmapLayout LayoutFinder::own_layout(std::span<const ChartSide> sides, int size) {
+    const int most = settings_.lightmap.value_or(FileBakeSettings::default_size);
+    AtlasOptions options{.margin = bake_.margin, .max_size = SolveSettings::max_lightmap};
+    if (bake_.texels_per_metre)
+        options.density = *bake_.texels_per_metre / mesh_.frame().scale;
     else
-        options.size = settings.lightmap.value_or(FileBakeSettings::default_size);
-    try {
-        const Atlas atlas = make_atlas(mesh, sides, options);
-        check_memory_of(atlas.size, settings);
-        log_line(settings.verbosity, Verbosity::verbose,
-                 counted(atlas.charts.size(), "chart", "charts") + " in a lightmap of " +
-                     std::to_string(atlas.size) + " x " + std::to_string(atlas.size) + " texels");
-        return {placed_triangles(mesh, atlas.charts), atlas.size, bake.margin};
-    } catch (const LightmapTooSmall& error) {
-        throw std::runtime_error(std::string(error.what()) + "; --lightmap asks for more");
+        options.size = size;
+    for (;;) {
+        try {
+            const Atlas atlas = make_atlas(mesh_, sides, options);
+            log_line(settings_.verbosity, Verbosity::verbose,
+                     counted(atlas.charts.size(), "chart", "charts") + " in a lightmap of " +
+                         std::to_string(atlas.size) + " x " + std::to_string(atlas.size) +
+                         " texels");
+            return {placed_triangles(mesh_, atlas.charts), atlas.size, bake_.margin};
+        } catch (const LightmapTooSmall& error) {
+            if (bake_.texels_per_metre || options.size >= most)
+                throw std::runtime_error(std::string(error.what()) + "; --lightmap asks for more");
+            options.size = std::min(2 * options.size, most);
+        }
     }
+}
+
+ObjectLightmap LayoutFinder::find(gltf::LitSource& source, std::string name,
+                                  std::vector<std::size_t> origins, int size) {
+    const std::size_t sets = source.texcoord_sets(), asked = bake_.set.value_or(1);
+    ObjectLightmap found{.name = std::move(name), .origins = std::move(origins)};
+    const std::vector<ChartSide> sides = fronts_of_file(mesh_, source, found.origins);
+    const std::string coordinates = "TEXCOORD_" + std::to_string(asked);
+    if ((asked < sets || bake_.set) && takes(found, coordinates, size, [&] {
+            return gltf::places_in_set(source, mesh_, sides, asked, found.origins);
+        })) {
+        found.set = asked;
+        return found;
+    }
+    found.set = std::max<std::size_t>(sets, 1);
+    new_coordinates_ = "TEXCOORD_" + std::to_string(found.set);
+    make_own(found, sides, size);
+    return found;
+}
+
+ObjectLightmap LayoutFinder::find(const LitObj& file, int size) {
+    ObjectLightmap found;
+    std::vector<ChartSide> sides;
+    const std::vector<Facet>& facets = mesh_.scene().facets;
+    for (std::uint32_t f = 0; f < facets.size(); ++f)
+        if (facets[f].face < file.faces().size()) // others are of emitters that were added
+            sides.push_back({f, false});
+    if (bake_.set.value_or(0) > 0)
+        throw InputError(file.path(), "an OBJ file has one set of texture coordinates; "
+                                      "--lightmap-uv 0 takes that, and new an atlas");
+    if ((!file.places().empty() || bake_.set) && takes(found, "vt", size, [&] {
+            PlacesOfObj places = places_in_obj(file, mesh_, sides);
+            return gltf::PlacesOfFile{std::move(places.triangles), std::move(places.without),
+                                      std::move(places.outside)};
+        }))
+        return found;
+    new_coordinates_ = file.places().empty() ? "vt" : "vt in place of those of the file";
+    make_own(found, sides, size);
+    return found;
+}
+
+template <class FindPlaces>
+bool LayoutFinder::takes(ObjectLightmap& found, const std::string& coordinates, int size,
+                         const FindPlaces& find_places) {
+    if (bake_.new_set || bake_.texels_per_metre)
+        return false;
+    found.layout = {{}, size, bake_.margin};
+    std::string fault = fault_of(find_places(), mesh_, size, found.layout.triangles);
+    if (fault.empty()) {
+        add_to_memory(size);
+        return true;
+    }
+    fault = coordinates + " of the file cannot be used, as " + fault;
+    if (bake_.set)
+        throw InputError(settings_.scene.path,
+                         fault + "; --lightmap-uv new makes an atlas of its own");
+    faults_.push_back(std::move(fault));
+    return false;
+}
+
+void LayoutFinder::make_own(ObjectLightmap& found, std::span<const ChartSide> sides, int size) {
+    found.is_new = true;
+    new_sets_.push_back(found.name);
+    found.layout = own_layout(sides, size);
+    add_to_memory(found.layout.size);
+}
+
+void LayoutFinder::log_new_sets() const {
+    if (new_sets_.empty())
+        return;
+    std::string text = faults_.empty() ? "" : faults_.front() + "; ";
+    if (faults_.size() > 1)
+        text +=
+            "so it is with " + counted(faults_.size() - 1, "more object", "more objects") + "; ";
+    text += bake_.per_object ? "lightmaps of these objects have coordinates of their own, "
+                             : "the lightmap has coordinates of its own, ";
+    text += new_coordinates_;
+    if (bake_.per_object)
+        text += ": " + list_names(new_sets_, max_names);
+    log_line(settings_.verbosity, Verbosity::normal, text);
+}
+
+/// Returns the normals that a file has, as far as they are asked for; warns where it has none.
+std::vector<CornerNormals> smooth_normals(const SolveSettings& settings,
+                                          std::vector<CornerNormals> normals,
+                                          std::vector<std::string>& warnings) {
+    if (std::ranges::any_of(normals, [](const CornerNormals& of) { return of != CornerNormals{}; }))
+        return normals;
+    warnings.push_back(settings.scene.path + ": no face has normals, so --normals smooth changes "
+                                             "nothing");
+    log_warnings(settings.verbosity, {warnings.back()});
+    return {};
+}
+
+/// Checks that the faces of an OBJ file are still those that were read.
+void check_unchanged(const LitObj& file, const Mesh& mesh) {
+    for (const Facet& facet : mesh.scene().facets) {
+        if (facet.face >= file.faces().size())
+            continue;
+        const auto corners = file.corners_of(facet.face);
+        for (const std::uint32_t vertex : facet.vertex)
+            if (std::ranges::find(corners, vertex, &LitObj::Corner::vertex) == corners.end())
+                throw InputError(file.path(), "the file has changed since it was read");
+    }
+}
+
+FileLightmap lightmap_of_obj(const SolveSettings& settings, const Mesh& mesh, int size,
+                             std::vector<std::string>& warnings) {
+    const std::string& path = settings.scene.path;
+    FileLightmap found;
+    found.obj = std::make_unique<LitObj>(path);
+    check_unchanged(*found.obj, mesh);
+    const auto folder = [](const std::string& file) {
+        std::error_code error;
+        return std::filesystem::weakly_canonical(std::filesystem::path(file).parent_path() / ".",
+                                                 error);
+    };
+    if (found.obj->has_libraries() && folder(path) != folder(settings.outputs.front().path)) {
+        warnings.push_back(path + ": mtllib names files that lie beside it, and not beside " +
+                           settings.outputs.front().path);
+        log_warnings(settings.verbosity, {warnings.back()});
+    }
+    if (settings.file_bake.smooth)
+        found.normals = smooth_normals(settings, normals_of_obj(*found.obj, mesh), warnings);
+    LayoutFinder finder(settings, mesh);
+    found.parts.push_back(finder.find(*found.obj, size));
+    finder.log_new_sets();
+    if (found.parts.front().is_new && !found.obj->places().empty()) {
+        warnings.push_back(path + ": faces refer to the atlas in place of the vt of the file, by "
+                                  "which its textures lie");
+        log_warnings(settings.verbosity, {warnings.back()});
+    }
+    found.parts.front().layout.normals = found.normals;
+    return found;
 }
 
 } // namespace
 
+double bytes_of_own_file(const SolveSettings& settings) {
+    constexpr double copies = 4;
+    std::error_code error;
+    const auto size = std::filesystem::file_size(settings.scene.path, error);
+    return settings.file_bake.asked && !error ? copies * static_cast<double>(size) : 0;
+}
+
+TexelMap texels_of(const LightmapLayout& layout, std::vector<PlacedTriangle> triangles,
+                   const Mesh& mesh, const Tracer& tracer) {
+    TexelMap texels(mesh, std::move(triangles), layout.size);
+    if (!layout.normals.empty())
+        texels.set_normals(layout.normals, tracer);
+    return texels;
+}
+
 FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
-                              std::vector<PrimitiveOrigin> origins) {
+                              std::vector<PrimitiveOrigin> origins,
+                              std::vector<std::string>& warnings) {
     const FileBakeSettings& bake = settings.file_bake;
     const std::string& path = settings.scene.path;
     const int size = settings.lightmap.value_or(FileBakeSettings::default_size);
+    if (is_obj(path))
+        return lightmap_of_obj(settings, mesh, size, warnings);
     FileLightmap found;
     found.source =
         std::make_unique<gltf::LitSource>(path, memory_guard(path, settings.scene.memory),
                                           settings.scene.outside, std::move(origins));
+    warn_once(warnings, found.source->warnings(), settings.verbosity);
     constexpr double copies = 4; // buffers, as one, and both as they are written
     memory_guard(path, settings.scene.memory)(copies * found.source->bytes());
-    const std::vector<ChartSide> sides = fronts_of_file(mesh, found.source->origins());
-    const std::size_t sets = found.source->texcoord_sets(), asked = bake.set.value_or(1);
-    std::string fault;
-    if (!bake.new_set && !bake.texels_per_metre && (asked < sets || bake.set)) {
-        check_memory_of(size, settings);
-        const gltf::PlacesOfFile places = gltf::places_in_set(*found.source, mesh, sides, asked);
-        LightmapLayout layout{{}, size, bake.margin};
-        fault = fault_of(places, mesh, size, layout.triangles);
-        if (fault.empty()) {
-            found.layout = std::move(layout);
-            found.set = asked;
-            return found;
+    if (bake.smooth)
+        found.normals =
+            smooth_normals(settings, gltf::normals_of_file(*found.source, mesh), warnings);
+    LayoutFinder finder(settings, mesh);
+    if (!bake.per_object) {
+        std::vector<std::size_t> all(found.source->origins().size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        found.parts.push_back(finder.find(*found.source, "", std::move(all), size));
+    } else {
+        const std::vector<ObjectOfFile> objects = objects_of(*found.source, mesh);
+        double largest = 0;
+        for (const ObjectOfFile& object : objects)
+            largest = std::max(largest, object.area);
+        for (const ObjectOfFile& object : objects) {
+            const double side = std::ceil(size * std::sqrt(object.area / largest));
+            found.parts.push_back(finder.find(*found.source, object.name, object.origins,
+                                              std::max(static_cast<int>(side), min_size)));
         }
-        fault = "TEXCOORD_" + std::to_string(asked) + " of the file cannot be used, as " + fault;
-        if (bake.set)
-            throw InputError(path, fault + "; --lightmap-uv new makes an atlas of its own");
     }
-    found.set = std::max<std::size_t>(sets, 1);
-    found.is_new = true;
-    log_line(settings.verbosity, Verbosity::normal,
-             (fault.empty() ? "" : fault + "; ") + "the lightmap has coordinates of its own, " +
-                 "TEXCOORD_" + std::to_string(found.set));
-    found.layout = own_layout(settings, mesh, sides);
+    finder.log_new_sets();
+    for (ObjectLightmap& part : found.parts)
+        part.layout.normals = found.normals;
     return found;
 }
 

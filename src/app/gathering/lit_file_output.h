@@ -5,12 +5,18 @@
 #include "app/settings/settings.h"
 #include "io/pictures/image.h"
 
+#include <span>
 #include <string>
+#include <vector>
 
 namespace hemilux {
 
-/// Writes the .glb file with this lightmap. Throws OutputError.
+/// Writes the .glb file with these lightmaps, those of FileLightmap::parts. Throws OutputError.
 void write_lit_file(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
-                    const FileLightmap& file, const Image& lightmap);
+                    const FileLightmap& file, std::span<const Image> lightmaps);
+
+/// Returns the paths of the lightmaps beside a .glb file, in the order of FileLightmap::parts.
+[[nodiscard]] std::vector<std::string> lightmap_paths(const std::string& glb,
+                                                      const FileLightmap& file);
 
 } // namespace hemilux

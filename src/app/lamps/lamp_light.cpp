@@ -80,16 +80,13 @@ class Shares {
     Vec3 all_{0.0};
 };
 
-void add_up(const Shares& shares, const std::optional<Image>& whole,
-            std::optional<Image> GatheredLamp::*part, std::vector<GatheredLamp>& lamps) {
-    if (!whole || std::ranges::any_of(lamps, [&](const auto& lamp) { return !(lamp.*part); })) {
-        for (GatheredLamp& lamp : lamps)
-            (lamp.*part).reset();
-        return;
-    }
-    for (std::size_t pixel = 0; pixel < whole->pixels.size(); ++pixel)
-        shares.add_up(whole->pixels[pixel],
-                      [&](std::size_t k) -> glm::vec3& { return (lamps[k].*part)->pixels[pixel]; });
+/// part(lamp) is an image of the size of the whole.
+template <class Part>
+void add_up(const Shares& shares, const Image& whole, std::vector<GatheredLamp>& lamps,
+            const Part& part) {
+    for (std::size_t pixel = 0; pixel < whole.pixels.size(); ++pixel)
+        shares.add_up(whole.pixels[pixel],
+                      [&](std::size_t k) -> glm::vec3& { return part(lamps[k]).pixels[pixel]; });
 }
 
 void add_up(const Shares& shares, const LightAtPoints& whole, std::vector<GatheredLamp>& lamps) {
@@ -164,12 +161,12 @@ double Layers::error_of(double squares, double all_squares) const {
 }
 
 bool Layers::gather() {
-    const auto& [scene, solver, solution, gathered, points, camera, lightmap] = run_;
+    const auto& [scene, solver, solution, gathered, points, camera, lightmaps] = run_;
     found_.gathered.resize(found_.patches.size());
     if (!gathered.cache)
         return true;
     if (found_.patches.size() == 1) {
-        found_.gathered[0] = {gathered.points.lights, gathered.picture, gathered.lightmap};
+        found_.gathered[0] = {gathered.points.lights, gathered.picture, gathered.lightmaps};
         statistics_.layers[0].error = gathered.error;
         return true;
     }
@@ -190,18 +187,22 @@ bool Layers::gather() {
         Statistics statistics;
         GatheredLight light =
             gather_light(settings, {lit, scene.tracer, own.radiosity, scene.threads}, own, points,
-                         camera, lightmap, monitor_, statistics);
+                         camera, lightmaps, monitor_, statistics);
         if (monitor_.interrupted)
             return false;
         statistics_.rays_layers += statistics.rays_learn + statistics.rays_gather;
         statistics_.layers[k].error = light.error;
         found_.gathered[k] = {std::move(light.points.lights), std::move(light.picture),
-                              std::move(light.lightmap)};
+                              std::move(light.lightmaps)};
     }
     const Shares shares(found_.lamps);
     add_up(shares, gathered.points, found_.gathered);
-    add_up(shares, gathered.picture, &GatheredLamp::picture, found_.gathered);
-    add_up(shares, gathered.lightmap, &GatheredLamp::lightmap, found_.gathered);
+    if (gathered.picture && found_.gathered[0].picture)
+        add_up(shares, *gathered.picture, found_.gathered,
+               [](GatheredLamp& lamp) -> Image& { return *lamp.picture; });
+    for (std::size_t map = 0; map < gathered.lightmaps.size(); ++map)
+        add_up(shares, gathered.lightmaps[map], found_.gathered,
+               [map](GatheredLamp& lamp) -> Image& { return lamp.lightmaps[map]; });
     return true;
 }
 

@@ -2,7 +2,6 @@
 // --layers: the light of each lamp by itself, of all that outputs hold.
 
 #include "app/gathering/gathered_light.h"
-#include "app/gathering/lightmap_layout.h"
 #include "app/rendering/view.h"
 #include "app/settings/settings.h"
 #include "io/pictures/camera.h"
@@ -28,7 +27,8 @@ void check_layers(const SolveSettings& settings, const Mesh& mesh);
 /// The part of gathered light that one lamp brings.
 struct GatheredLamp {
     std::vector<PointLight> points; ///< by point of --points
-    std::optional<Image> picture, lightmap;
+    std::optional<Image> picture;
+    std::vector<Image> lightmaps; ///< of the layouts
 };
 
 /// The light of each lamp; none where --layers is not asked for. The sum over layers is the light
@@ -44,8 +44,8 @@ struct LitRun {
     const Solution& solution;
     const GatheredLight& gathered;
     std::span<const NamedPoint> points;
-    Camera camera;                  ///< of pictures
-    const LightmapLayout& lightmap; ///< where surfaces lie in one
+    Camera camera;                          ///< of pictures
+    std::span<const NamedLayout> lightmaps; ///< where surfaces lie in them
 };
 
 /// Finds the layers, where they are asked for, by the rays of the run. Enters their errors and what

@@ -23,7 +23,7 @@ LoadedGeometry load_geometry(const SceneSettings& settings, const RunFiles& file
     FileView view = view_of_file(settings.path, read);
     Mesh mesh = divide_with_sides(std::move(read.scene), settings, options, verbosity).mesh;
     log_line(verbosity, Verbosity::verbose, mesh_text(mesh));
-    return {std::move(mesh), std::move(view)};
+    return {std::move(mesh), std::move(view), std::move(read.origins), std::move(read.warnings)};
 }
 
 } // namespace hemilux

@@ -12,6 +12,8 @@ namespace hemilux {
 struct LoadedGeometry {
     Mesh mesh;
     FileView view;
+    std::vector<PrimitiveOrigin> origins; ///< ReadResult
+    std::vector<std::string> warnings;    ///< those of the file, which were logged
 };
 
 /// What a command makes of the patches.

@@ -89,17 +89,18 @@ std::string rounded(double bytes) {
                         : formatted("%.2g bytes", bytes);
 }
 
-/// Returns the bytes of pictures, each once, and of texture coordinates.
+/// Returns the bytes of pictures, each once, and of what corners have for them.
 std::vector<double> bytes_of_textures(const Scene& scene) {
     std::set<const Texture*> textures;
-    for (const auto& [reflectance, emission] : textures_of(scene).of_material)
-        for (const TextureMap* const map : {&reflectance, &emission})
+    for (const MaterialTextures& of_material : textures_of(scene).of_material)
+        for (const TextureMap* const map : {&of_material.reflectance, &of_material.emission})
             textures.insert(map->texture.get());
     std::vector<double> bytes;
     for (const Texture* const texture : textures)
         bytes.push_back(texture ? texture->bytes() : 0);
     for (const std::vector<Texcoords>& set : textures_of(scene).texcoords)
         bytes.push_back(static_cast<double>(set.size() * sizeof(Texcoords)));
+    bytes.push_back(static_cast<double>(textures_of(scene).tints.size() * sizeof(Tints)));
     return bytes;
 }
 

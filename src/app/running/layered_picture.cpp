@@ -67,10 +67,10 @@ Image picture_of(const Image& light, const std::vector<std::uint32_t>& patches, 
 } // namespace
 
 void add_lamp_channels(std::vector<ExrChannel>& channels, const LampLight& lamps,
-                       std::optional<Image> GatheredLamp::*of) {
+                       const std::function<const Image*(const GatheredLamp&)>& image_of) {
     const std::vector<std::string> names = channel_names(lamps.lamps);
     for (std::size_t k = 0; k < lamps.gathered.size(); ++k)
-        if (const std::optional<Image>& image = lamps.gathered[k].*of)
+        if (const Image* const image = image_of(lamps.gathered[k]))
             add_exr_channels(channels, names[k], *image);
 }
 
@@ -102,7 +102,9 @@ std::vector<ExrChannel> picture_layers(const Results& results, const Image& ligh
                 std::bit_cast<std::uint32_t>(i == no_patch ? 0.0f : static_cast<float>(means[i])));
         channels.push_back(std::move(density));
     }
-    add_lamp_channels(channels, results.lamps, &GatheredLamp::picture);
+    add_lamp_channels(channels, results.lamps, [](const GatheredLamp& lamp) {
+        return lamp.picture ? &*lamp.picture : nullptr;
+    });
     channels.push_back({"patch", ExrChannel::Kind::whole, patches});
     return channels;
 }

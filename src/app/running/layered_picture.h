@@ -4,13 +4,14 @@
 #include "app/running/results.h"
 #include "io/pictures/exr.h"
 
+#include <functional>
 #include <vector>
 
 namespace hemilux {
 
 /// Adds the light of each lamp, as NAME.R, NAME.G and NAME.B, to that of all together.
 void add_lamp_channels(std::vector<ExrChannel>& channels, const LampLight& lamps,
-                       std::optional<Image> GatheredLamp::*of);
+                       const std::function<const Image*(const GatheredLamp&)>& image_of);
 
 /// Returns the layers of a picture of the light: R, G, B (`light`), those of lamps, irradiance.R
 /// and so on, error.R and so on (standard errors), density (mean of a patch's hemisphere, surfaces

@@ -149,13 +149,20 @@ int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
     return up;
 }
 
+void add_lightmaps_of_lamps(std::vector<ExrChannel>& channels, const LampLight& lamps,
+                            std::size_t number) {
+    add_lamp_channels(channels, lamps, [number](const GatheredLamp& lamp) -> const Image* {
+        return number < lamp.lightmaps.size() ? &lamp.lightmaps[number] : nullptr;
+    });
+}
+
 /// Writes a .glb file and its lightmap, each as an attempt of its own: neither's failure takes the
 /// other.
 void write_lightmapped(const SolveSettings& settings, const std::string& path,
                        const Results& results, const CornerClasses& classes, VertexLight light,
                        int up, WriteReport& report) {
     const Mesh& mesh = results.mesh;
-    const std::optional<Image>& gathered = results.gathered.lightmap;
+    const std::vector<Image>& gathered = results.gathered.lightmaps;
     const int size = *settings.lightmap;
     const std::vector<LightmapChart> charts = find_charts(mesh, size); // which fit: check_lightmap
     const ChartCorners corners = divide_by_charts(mesh, classes, charts);
@@ -168,9 +175,10 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path,
     light.of_class = std::move(of_class);
     report.attempt(lightmap_path(path), [&] {
         std::vector<ExrChannel> channels;
-        add_half_exr_channels(channels, gathered ? *gathered
-                                                 : lightmap(charts, corners, light.of_class, size));
-        add_lamp_channels(channels, results.lamps, &GatheredLamp::lightmap);
+        add_half_exr_channels(channels, gathered.empty()
+                                            ? lightmap(charts, corners, light.of_class, size)
+                                            : gathered.front());
+        add_lightmaps_of_lamps(channels, results.lamps, 0);
         write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
     });
     write_glb(path, mesh, corners.classes, light, settings.from, up, texcoords);
@@ -193,20 +201,13 @@ void write_mesh(const SolveSettings& settings, const Output& output, const Resul
         write_glb(output.path, results.mesh, classes, light, settings.from, up);
 }
 
-/// Writes the output of `bake`, and its lightmap as an attempt of its own.
-void write_own_file(const SolveSettings& settings, const std::string& path, const Results& results,
-                    WriteReport& report) {
-    if (!results.gathered.lightmap)
+void write_gathered_file(const SolveSettings& settings, const std::string& path,
+                         const Results& results, WriteReport& report) {
+    if (results.gathered.lightmaps.empty())
         throw Interrupted();
-    const Image& light = *results.gathered.lightmap;
-    write_lit_file(settings, path, results.mesh, results.file_lightmap, light);
-    report.attempt(lightmap_path(path), [&] {
-        std::vector<ExrChannel> channels;
-        add_half_exr_channels(channels, light);
-        add_lamp_channels(channels, results.lamps, &GatheredLamp::lightmap);
-        write_exr(lightmap_path(path), light.width, light.height, std::move(channels),
-                  settings.from);
-    });
+    write_lit_file(settings, path, results.mesh, results.file_lightmap, results.gathered.lightmaps);
+    write_lightmaps(settings, path, results.file_lightmap, results.gathered.lightmaps, report,
+                    results.lamps);
 }
 
 void write_output(const SolveSettings& settings, const Output& output, const Results& results,
@@ -218,9 +219,10 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
     case OutputKind::exr:
         return picture.write(output, settings.from, settings.verbosity);
     case OutputKind::ply:
+    case OutputKind::obj:
     case OutputKind::glb:
         if (settings.file_bake.asked)
-            return write_own_file(settings, output.path, results, report);
+            return write_gathered_file(settings, output.path, results, report);
         return write_mesh(settings, output, results, classes.get(), report);
     case OutputKind::vtu:
         return write_vtu(output.path, results.mesh, classes.get(), solution, settings.from);
@@ -256,6 +258,20 @@ void write_report(const SolveSettings& settings, const Results& results) {
 }
 
 } // namespace
+
+void write_lightmaps(const SolveSettings& settings, const std::string& path,
+                     const FileLightmap& file, std::span<const Image> lightmaps,
+                     WriteReport& report, const LampLight& lamps) {
+    const std::vector<std::string> paths = lightmap_paths(path, file);
+    for (std::size_t k = 0; k < paths.size(); ++k)
+        report.attempt(paths[k], [&] {
+            const Image& light = lightmaps[k];
+            std::vector<ExrChannel> channels;
+            add_half_exr_channels(channels, light);
+            add_lightmaps_of_lamps(channels, lamps, k);
+            write_exr(paths[k], light.width, light.height, std::move(channels), settings.from);
+        });
+}
 
 bool shows_statistics(const SolveSettings& settings) {
     return settings.verbosity != Verbosity::quiet || !settings.statistics.empty() ||

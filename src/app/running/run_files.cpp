@@ -1,5 +1,6 @@
 #include "app/running/run_files.h"
 
+#include "app/gathering/lit_file_output.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
 #include "io/files/atomic_file.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,15 +22,16 @@ namespace {
 using RoleAndPath = std::pair<std::string, std::string>;
 
 /// Returns the files of --lightmap.
-std::vector<std::string> lightmap_paths(const SolveSettings& settings) {
+std::vector<std::string> paths_of_lightmaps(const SolveSettings& settings) {
     std::vector<std::string> paths;
     for (const Output& output : settings.outputs)
-        if (settings.lightmap && output.kind == OutputKind::glb) {
+        if (settings.lightmap && is_own_file(output.kind)) {
             if (output.path == standard_output)
                 throw UsageError("a lightmap takes its name from the .glb file; -o -.glb has none");
-            paths.push_back(lightmap_path(output.path));
+            if (!settings.file_bake.per_object) // else check_object_files() knows them
+                paths.push_back(lightmap_path(output.path));
         }
-    if (settings.lightmap && paths.empty())
+    if (settings.lightmap && paths.empty() && !settings.file_bake.per_object)
         throw UsageError("--lightmap is for .glb files; add -o scene.glb");
     return paths;
 }
@@ -38,7 +41,7 @@ std::vector<RoleAndPath> results_of(const SolveSettings& settings) {
     std::vector<RoleAndPath> results;
     for (const Output& output : settings.outputs)
         results.emplace_back("output", output.path);
-    for (const std::string& path : lightmap_paths(settings))
+    for (const std::string& path : paths_of_lightmaps(settings))
         results.emplace_back("file of --lightmap", path);
     for (const auto& [role, path] : {std::pair("file of --points-output", settings.points.output),
                                      std::pair("file of --error-map", settings.error_map),
@@ -101,23 +104,50 @@ void check_bake(const SolveSettings& settings) {
     if (!settings.file_bake.asked)
         return;
     const std::string extension = extension_of(settings.scene.path);
-    if (extension != ".gltf" && extension != ".glb")
+    const bool is_obj_scene = is_obj(settings.scene.path);
+    if (extension != ".gltf" && extension != ".glb" && !is_obj_scene)
         throw UsageError(
-            "bake is for glTF files (.gltf, .glb); for '" + settings.scene.path +
+            "bake is for glTF and OBJ files (.gltf, .glb, .obj); for '" + settings.scene.path +
             "' hemilux solve -o lit.glb --lightmap 1024 writes a mesh with a lightmap");
+    if (is_obj_scene != is_obj(settings.outputs.front().path))
+        throw UsageError(is_obj_scene
+                             ? "bake writes an OBJ file as it is; name it -o lit.obj (hemilux "
+                               "solve -o lit.glb --lightmap 1024 writes a mesh of its own)"
+                             : "bake writes a glTF file as it is; name it -o lit.glb");
+    if (is_obj_scene && settings.file_bake.per_object)
+        throw UsageError("--per-object is for glTF files");
+    if (is_obj_scene && settings.file_bake.binding != Binding::texture)
+        throw UsageError("materials of OBJ files have no place for their light; --bind texture "
+                         "writes texture coordinates alone");
     if (std::filesystem::exists(settings.scene.path))
         check_input(settings.scene.path, InputKind::regular);
+}
+
+/// Checks the files of --per-object. Those that the scene names are among its inputs.
+void check_object_files(const SolveSettings& settings, std::span<const std::string> lightmaps,
+                        std::span<const std::string> further_inputs) {
+    RunFiles files;
+    for (const auto& [role, path] : results_of(settings))
+        files.write(role, path);
+    for (const std::string& path : lightmaps)
+        files.write("lightmap of --per-object", path);
+    list_inputs(settings, files);
+    for (const std::string& path : further_inputs)
+        if (!path.empty())
+            files.read("file of the scene", path);
+    for (const std::string& path : lightmaps)
+        check_writable(path);
 }
 
 } // namespace
 
 void check_lightmap(const SolveSettings& settings, const Mesh& mesh) {
-    if (!settings.lightmap)
+    if (!settings.lightmap || settings.file_bake.asked) // whose layouts are found for themselves
         return;
     try {
         (void)find_charts(mesh, *settings.lightmap);
     } catch (const LightmapTooSmall& error) {
-        throw OutputError(lightmap_paths(settings).front(),
+        throw OutputError(paths_of_lightmaps(settings).front(),
                           std::string(error.what()) + "; --lightmap asks for more");
     }
 }
@@ -142,6 +172,18 @@ RunFiles check_files(const SolveSettings& settings) {
         check_writable(path);
     check_readable(settings);
     return files;
+}
+
+FileLightmap lightmaps_to_write(const SolveSettings& settings, const Mesh& mesh,
+                                const std::vector<PrimitiveOrigin>& origins,
+                                std::vector<std::string>& warnings) {
+    FileLightmap file = lightmap_of_file(settings, mesh, origins, warnings);
+    if (!settings.file_bake.per_object)
+        return file;
+    std::vector<std::string> inputs = file.source->buffers().files();
+    inputs.insert(inputs.end(), file.source->pictures().begin(), file.source->pictures().end());
+    check_object_files(settings, lightmap_paths(settings.outputs.front().path, file), inputs);
+    return file;
 }
 
 } // namespace hemilux

@@ -13,4 +13,7 @@ namespace hemilux {
     return small_letters(std::filesystem::path(path).extension().string());
 }
 
+/// Returns whether the file is an OBJ file, by its name.
+[[nodiscard]] inline bool is_obj(const std::string& path) { return extension_of(path) == ".obj"; }
+
 } // namespace hemilux

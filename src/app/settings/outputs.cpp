@@ -43,6 +43,10 @@ std::string lightmap_path(const std::string& glb) {
     return fs::path(glb).replace_extension(".lightmap.exr").string();
 }
 
+std::string lightmap_path(const std::string& glb, const std::string& object) {
+    return fs::path(glb).replace_extension("." + object + ".lightmap.exr").string();
+}
+
 void check_writable(const std::string& path) {
     if (writes_no_files())
         return;

@@ -11,7 +11,7 @@
 
 namespace hemilux {
 
-enum class OutputKind { png, hdr, exr, ply, glb, vtu, csv, json };
+enum class OutputKind { png, hdr, exr, ply, glb, obj, vtu, csv, json };
 
 /// A file that the user asked for.
 struct Output {
@@ -23,12 +23,19 @@ struct Output {
     return kind == OutputKind::png || kind == OutputKind::hdr || kind == OutputKind::exr;
 }
 
+/// Returns whether `bake` writes it: the scene's own file.
+[[nodiscard]] constexpr bool is_own_file(OutputKind kind) {
+    return kind == OutputKind::glb || kind == OutputKind::obj;
+}
+
 /// Returns the kind of output by the extension of the path, in small or capital letters; empty if
 /// it is unknown. "-" is a patch table on standard output, and "-.ply" another kind there.
 [[nodiscard]] std::optional<Output> parse_output(std::string_view path);
 
 /// Returns the file of --lightmap beside a .glb file: scene.glb has scene.lightmap.exr.
 [[nodiscard]] std::string lightmap_path(const std::string& glb);
+/// Returns the file of an object of that name: scene.glb has scene.NAME.lightmap.exr.
+[[nodiscard]] std::string lightmap_path(const std::string& glb, const std::string& object);
 
 /// Throws OutputError where no file can be made or replaced at the path, links being followed.
 void check_writable(const std::string& path);

@@ -8,6 +8,8 @@ namespace hemilux {
 namespace {
 
 void remove_texture(MaterialTextures& textures, Vec3 Material::*quantity) {
+    if (quantity == &Material::emission)
+        textures.tinted = false;
     (quantity == &Material::emission ? textures.emission : textures.reflectance).texture.reset();
 }
 

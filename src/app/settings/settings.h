@@ -95,6 +95,10 @@ struct FileBakeSettings {
     std::optional<double> texels_per_metre;
     int margin = 2; ///< texels around charts that have their light too
     Binding binding = Binding::lightmap;
+    bool per_object = false; ///< a lightmap for each object
+    bool smooth = false;     ///< --normals smooth: texels are gathered around those of the file
+    bool occlusion = false;  ///< --bake ao in place of SolveSettings::bake
+    std::optional<double> occlusion_distance; ///< [m], beyond which nothing blocks
     static constexpr int default_size = 1024, max_margin = 64;
 };
 

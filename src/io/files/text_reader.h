@@ -34,6 +34,8 @@ class TextReader {
 
     /// Finds the next statement, which is valid as long as the reader; false at the end.
     bool next(Statement& statement);
+    /// Returns all of the text, which statements are parts of.
+    [[nodiscard]] std::string_view content() const { return content_; }
 
   private:
     [[nodiscard]] std::string_view next_line();

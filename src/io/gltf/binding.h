@@ -4,9 +4,10 @@
 namespace hemilux {
 
 enum class Binding {
-    lightmap, ///< MOZ_lightmap: the picture is irradiance, linear, times `intensity`
-    unlit,    ///< KHR_materials_unlit with the picture as base colour: what a screen shows
-    texture   ///< texture and coordinates alone
+    lightmap,  ///< MOZ_lightmap: the picture is irradiance, linear, times `intensity`
+    unlit,     ///< KHR_materials_unlit with the picture as base colour: what a screen shows
+    occlusion, ///< occlusionTexture, which has the share of the sky that is not blocked
+    texture    ///< texture and coordinates alone
 };
 
 } // namespace hemilux

@@ -7,6 +7,7 @@
 #include "io/scene_files/emitter_shapes.h"
 #include "radiosity/light/sides/shells.h"
 #include "radiosity/light/textures/scene_textures.h"
+#include "radiosity/light/textures/textured_facets.h"
 
 #include <algorithm>
 #include <array>
@@ -42,6 +43,7 @@ class Reader {
     void add_camera(const Instance& instance);
     void add_lights();
     void collect_warnings(const MeshTally& meshes);
+    void warn_of_unlit();
     void warn(std::size_t count, const std::string& one, const std::string& many);
     [[noreturn]] void fail(const std::string& place, const std::string& message) const {
         throw InputError(path_, place + ": " + message);
@@ -82,9 +84,16 @@ ReadResult Reader::read() {
                                     ? "none of the triangles has an area"
                                     : "no triangles; expected a scene whose nodes show meshes");
     mark_two_sided();
+    set_tinted_means(result_.scene);
     add_lights();
-    for (std::vector<Texcoords>& set : own_textures_of(result_.scene).texcoords)
+    SceneTextures& textures = own_textures_of(result_.scene);
+    for (std::vector<Texcoords>& set : textures.texcoords)
         set.resize(result_.scene.facets.size());
+    if (!textures.tints.empty()) {
+        Tints none;
+        none.fill(glm::vec3(1.0f));
+        textures.tints.resize(result_.scene.facets.size(), none);
+    }
     collect_warnings(meshes.tally());
     result_.textures = maps_.paths();
     result_.libraries = buffers_.files();
@@ -199,7 +208,26 @@ void Reader::warn(std::size_t count, const std::string& one, const std::string& 
                                    (count == 1 ? one : std::to_string(count) + " " + many));
 }
 
+/// Names the materials whose colours are light already.
+void Reader::warn_of_unlit() {
+    constexpr std::size_t max_names = 4;
+    std::vector<std::string> names;
+    for (std::size_t m = 0; m < used_.size(); ++m)
+        if (used_[m] && document_.materials[m].unlit)
+            names.push_back("'" + result_.scene.materials[m].name + "'");
+    if (names.empty())
+        return;
+    const bool one = names.size() == 1;
+    result_.warnings.push_back(
+        path_ + (one ? ": material " : ": materials ") + list_names(names, max_names) +
+        (one ? " is" : " are") +
+        " unlit (KHR_materials_unlit), so the colours are light already: they are emitted, and "
+        "nothing is reflected; to light it, give --emission 'MATERIAL=0' and --reflectance "
+        "'MATERIAL=0.5', or the model as it was before its light was baked");
+}
+
 void Reader::collect_warnings(const MeshTally& meshes) {
+    warn_of_unlit();
     std::size_t metals = 0, transparent = 0;
     for (std::size_t m = 0; m < used_.size(); ++m) {
         metals += used_[m] && document_.materials[m].metallic > metal;

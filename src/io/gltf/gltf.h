@@ -6,8 +6,10 @@
 // colour, also where it is a metal or lets light through, which is reported. Its emission is pi
 // times emissiveFactor and emissiveStrength: a diffuse surface of radiance L emits pi L, and a
 // lumen counts as a watt. A double-sided material has two sides where it belongs to an open
-// surface; nobody sees the other side of a closed one. Left out and reported: points, lines,
-// colours of vertices, skins and morph targets.
+// surface; nobody sees the other side of a closed one. An unlit material (KHR_materials_unlit)
+// shows its colours whatever light arrives: it emits pi times them, colours of vertices included,
+// and reflects nothing, which is reported. Left out and reported: points, lines, colours of
+// vertices of other materials, skins and morph targets.
 
 #include "io/scene_files/read_result.h"
 

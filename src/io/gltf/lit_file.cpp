@@ -47,7 +47,8 @@ class Writer {
   public:
     Writer(LitSource& source, const LightmapOfFile& lightmap)
         : source_(source), lightmap_(lightmap), root_(Json::parse(source.container().json)),
-          meshes_of_file_(root_.value("meshes", Json::array())) {
+          meshes_of_file_(root_.value("meshes", Json::array())),
+          materials_of_file_(root_.value("materials", Json::array())) {
         // Members lie in one array: with room for all that are added, references to them stay
         // valid.
         constexpr std::size_t most_added = 16;
@@ -58,12 +59,19 @@ class Writer {
     void make() {
         join_buffers();
         embed_pictures();
-        for (const AtlasCoordinates& coordinates : lightmap_.coordinates)
-            add_coordinates(coordinates);
+        for (const LightmapPicture& picture : lightmap_.pictures) {
+            if (lightmap_.pictures.size() > 1)
+                for (const std::size_t origin : picture.origins)
+                    give_own_mesh(source_.origins()[origin]);
+            for (const AtlasCoordinates& coordinates : picture.coordinates)
+                add_coordinates(coordinates, picture.set);
+        }
         forget_instancing();
-        const std::size_t texture = add_texture();
-        if (lightmap_.binding != Binding::texture)
-            bind(texture);
+        for (const LightmapPicture& picture : lightmap_.pictures) {
+            const std::size_t texture = add_texture(picture);
+            if (lightmap_.binding != Binding::texture)
+                bind(texture, picture);
+        }
         root_["buffers"][0]["byteLength"] = binary_.size();
     }
     void write(const std::string& path) const;
@@ -77,9 +85,11 @@ class Writer {
     void join_buffers();
     void embed_pictures();
     std::size_t add_view(std::string_view bytes);
-    std::size_t add_texture();
-    void bind(std::size_t texture);
-    void add_coordinates(const AtlasCoordinates& coordinates);
+    std::size_t add_texture(const LightmapPicture& picture);
+    void bind(std::size_t texture, const LightmapPicture& picture);
+    void bind(Json& material, std::size_t texture, const LightmapPicture& picture) const;
+    [[nodiscard]] std::size_t own_material(const Json& primitive, const LightmapPicture& picture);
+    void add_coordinates(const AtlasCoordinates& coordinates, std::size_t of_set);
     Json& primitive_of(const PrimitiveOrigin& origin);
     void give_own_mesh(const PrimitiveOrigin& origin);
     void place_instances(const PrimitiveOrigin& origin);
@@ -93,12 +103,17 @@ class Writer {
     LitSource& source_;
     const LightmapOfFile& lightmap_;
     Json root_;
-    const Json meshes_of_file_;
+    const Json meshes_of_file_, materials_of_file_;
     std::string binary_;
     using Shown = std::pair<std::size_t, std::optional<std::size_t>>; ///< node, number of instance
     std::map<std::size_t, std::size_t> node_of_mesh_;                 ///< that a mesh is kept for
     std::map<Shown, std::size_t> mesh_of_; ///< where it is another one than in the file
     std::map<Shown, std::size_t> node_of_instance_;
+    std::map<std::size_t, const LightmapPicture*> picture_of_material_; ///< that it is kept for
+    using Lit =
+        std::pair<std::optional<std::size_t>, const LightmapPicture*>; ///< none: the default
+    std::set<const Json*> bound_;            ///< primitives that have their materials
+    std::map<Lit, std::size_t> material_of_; ///< where it is another one than in the file
 };
 
 Json& Writer::array_of(const char* name) {
@@ -186,68 +201,93 @@ std::size_t Writer::add_view(std::string_view bytes) {
     return views.size() - 1;
 }
 
-std::size_t Writer::add_texture() {
-    const std::size_t view = add_view(lightmap_.png);
+std::size_t Writer::add_texture(const LightmapPicture& picture) {
+    const std::size_t view = add_view(picture.png);
     Json& images = array_of("images");
-    images.push_back({{"name", "lightmap"}, {"mimeType", "image/png"}, {"bufferView", view}});
+    images.push_back({{"name", picture.name}, {"mimeType", "image/png"}, {"bufferView", view}});
     Json& samplers = array_of("samplers");
-    samplers.push_back({{"magFilter", linear_filter},
-                        {"minFilter", linear_filter},
-                        {"wrapS", clamp_to_edge},
-                        {"wrapT", clamp_to_edge}});
+    if (&picture == &lightmap_.pictures.front())
+        samplers.push_back({{"magFilter", linear_filter},
+                            {"minFilter", linear_filter},
+                            {"wrapS", clamp_to_edge},
+                            {"wrapT", clamp_to_edge}});
     Json& textures = array_of("textures");
     Json extras{{"bake", lightmap_.bake},
-                {"texCoord", lightmap_.set},
-                {"intensity", lightmap_.intensity},
+                {"texCoord", picture.set},
+                {"intensity", picture.intensity},
                 {"exposure", lightmap_.exposure}};
     if (!lightmap_.command.empty())
         extras["command"] = lightmap_.command;
-    textures.push_back({{"name", "lightmap"},
+    textures.push_back({{"name", picture.name},
                         {"sampler", samplers.size() - 1},
                         {"source", images.size() - 1},
                         {"extras", {{"hemilux", extras}}}});
     return textures.size() - 1;
 }
 
-/// Binds the texture to the materials of all primitives that were read. Those without a material
-/// get one that looks the same.
-void Writer::bind(std::size_t texture) {
-    const bool is_unlit = lightmap_.binding == Binding::unlit;
+/// Returns the material of a primitive whose light is in this picture. It is that of the file for
+/// the first picture that needs it, and a copy for each other one. A primitive without a material
+/// gets one that looks the same.
+std::size_t Writer::own_material(const Json& primitive, const LightmapPicture& picture) {
+    std::optional<std::size_t> of_file;
+    if (primitive.contains("material"))
+        of_file = primitive["material"].get<std::size_t>();
+    if (of_file && picture_of_material_.try_emplace(*of_file, &picture).first->second == &picture)
+        return *of_file;
+    Json& materials = array_of("materials");
+    const auto [found, is_new] = material_of_.try_emplace({of_file, &picture}, materials.size());
+    if (is_new)
+        materials.push_back(of_file ? materials_of_file_[*of_file]
+                                    : Json::object({{"name", "default"}}));
+    return found->second;
+}
+
+void Writer::bind(Json& material, std::size_t texture, const LightmapPicture& picture) const {
+    const Json info{{"index", texture}, {"texCoord", picture.set}};
+    switch (lightmap_.binding) {
+    case Binding::unlit: {
+        Json& surface = material["pbrMetallicRoughness"];
+        surface["baseColorTexture"] = info;
+        surface["baseColorFactor"] = {1, 1, 1, 1};
+        for (const char* const lit : {"emissiveFactor", "emissiveTexture", "normalTexture",
+                                      "occlusionTexture", "extensions"})
+            material.erase(lit);
+        material["extensions"]["KHR_materials_unlit"] = Json::object();
+        return;
+    }
+    case Binding::occlusion:
+        material["occlusionTexture"] = info;
+        return;
+    case Binding::lightmap: {
+        Json& extension = material["extensions"]["MOZ_lightmap"];
+        extension = info;
+        extension["intensity"] = picture.intensity;
+        return;
+    }
+    case Binding::texture:
+        return;
+    }
+}
+
+/// Binds the texture to the materials of the picture's primitives.
+void Writer::bind(std::size_t texture, const LightmapPicture& picture) {
     std::set<std::size_t> used;
-    std::optional<std::size_t> plain;
-    for (const PrimitiveOrigin& origin : source_.origins()) {
-        Json& primitive = primitive_of(origin);
-        if (!primitive["attributes"].contains("TEXCOORD_" + std::to_string(lightmap_.set)))
+    for (const std::size_t number : picture.origins) {
+        Json& primitive = primitive_of(source_.origins()[number]);
+        if (!primitive["attributes"].contains("TEXCOORD_" + std::to_string(picture.set)))
             continue;
-        if (!primitive.contains("material")) {
-            Json& materials = array_of("materials");
-            if (!plain) {
-                plain = materials.size();
-                materials.push_back({{"name", "default"}});
-            }
-            primitive["material"] = *plain;
-        }
-        used.insert(primitive["material"].get<std::size_t>());
+        // Nodes that share a mesh share its primitive, which has its new material already.
+        if (!bound_.insert(&primitive).second)
+            continue;
+        const std::size_t material = own_material(primitive, picture);
+        primitive["material"] = material;
+        used.insert(material);
     }
-    for (const std::size_t m : used) {
-        Json& material = root_["materials"][m];
-        const Json info{{"index", texture}, {"texCoord", lightmap_.set}};
-        if (is_unlit) {
-            Json& surface = material["pbrMetallicRoughness"];
-            surface["baseColorTexture"] = info;
-            surface["baseColorFactor"] = {1, 1, 1, 1};
-            for (const char* const lit : {"emissiveFactor", "emissiveTexture", "normalTexture",
-                                          "occlusionTexture", "extensions"})
-                material.erase(lit);
-            material["extensions"]["KHR_materials_unlit"] = Json::object();
-        } else {
-            Json& extension = material["extensions"]["MOZ_lightmap"];
-            extension = info;
-            extension["intensity"] = lightmap_.intensity;
-        }
-    }
-    if (!used.empty())
-        use_extension(is_unlit ? "KHR_materials_unlit" : "MOZ_lightmap");
+    for (const std::size_t m : used)
+        bind(root_["materials"][m], texture, picture);
+    if (used.empty() || lightmap_.binding == Binding::occlusion)
+        return;
+    use_extension(lightmap_.binding == Binding::unlit ? "KHR_materials_unlit" : "MOZ_lightmap");
 }
 
 /// Returns the primitive that is written for an origin.
@@ -321,7 +361,7 @@ void Writer::forget_instancing() {
         }
 }
 
-void Writer::add_coordinates(const AtlasCoordinates& coordinates) {
+void Writer::add_coordinates(const AtlasCoordinates& coordinates, std::size_t of_set) {
     const PrimitiveOrigin& origin = source_.origins()[coordinates.origin];
     give_own_mesh(origin);
     if (!coordinates.further.empty()) {
@@ -341,9 +381,9 @@ void Writer::add_coordinates(const AtlasCoordinates& coordinates) {
     const std::size_t places = add_places(coordinates.places);
     Json& attributes = primitive_of(origin)["attributes"];
     // The format has no set without those before it.
-    for (std::size_t set = 0; set <= lightmap_.set; ++set)
+    for (std::size_t set = 0; set <= of_set; ++set)
         if (const std::string name = "TEXCOORD_" + std::to_string(set);
-            set == lightmap_.set || !attributes.contains(name))
+            set == of_set || !attributes.contains(name))
             attributes[name] = places;
 }
 

@@ -10,18 +10,25 @@
 #include "io/gltf/lit_source.h"
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace hemilux {
 
-struct LightmapOfFile {
-    std::string_view png;
-    Binding binding = Binding::lightmap;
-    double intensity = 1; ///< the irradiance of the largest number of the picture
-    std::size_t set = 1;  ///< of texture coordinates
+/// A picture of the light of some primitives.
+struct LightmapPicture {
+    std::string name = "lightmap"; ///< of its image and texture
+    std::string png = {};
+    std::vector<std::size_t> origins = {}; ///< numbers of LitSource::origins() whose light it is
+    double intensity = 1;                  ///< the irradiance of the largest number of the picture
+    std::size_t set = 1;                   ///< of texture coordinates
     /// The coordinates that are added as that set; empty: the file has it.
     std::vector<gltf::AtlasCoordinates> coordinates = {};
+};
+
+struct LightmapOfFile {
+    /// Where there are several, objects that share a mesh or a material get copies of it.
+    std::vector<LightmapPicture> pictures;
+    Binding binding = Binding::lightmap;
     std::string command; ///< by which it was made, for the texture's extras; empty: not there
     std::string bake;    ///< the name of the light, for these extras
     double exposure = 1; ///< for these extras

@@ -4,16 +4,17 @@
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/gltf/document/uri.h"
+#include "io/gltf/instances.h"
 #include "io/gltf/scene_meshes.h"
 #include "io/lightmaps/chart_regions.h"
+#include "io/lightmaps/joined_charts.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
-#include <numeric>
 #include <system_error>
-#include <tuple>
 #include <utility>
 
 namespace hemilux::gltf {
@@ -39,42 +40,6 @@ std::string file_of(const ImageInfo& image, const std::string& scene, const std:
 /// Returns which corner of a facet is this vertex of the scene.
 std::size_t corner_of(const Facet& facet, std::uint32_t vertex) {
     return static_cast<std::size_t>(std::ranges::find(facet.vertex, vertex) - facet.vertex.begin());
-}
-
-/// Sets of triangles that are joined (union and find).
-class Joined {
-  public:
-    explicit Joined(std::size_t count) : of_(count) {
-        std::iota(of_.begin(), of_.end(), std::size_t{0});
-    }
-    std::size_t find(std::size_t k) {
-        while (of_[k] != k)
-            k = of_[k] = of_[of_[k]];
-        return k;
-    }
-    void join(std::size_t a, std::size_t b) { of_[find(b)] = find(a); }
-
-  private:
-    std::vector<std::size_t> of_;
-};
-
-/// Numbers the charts: triangles that share an end in both the set and the scene.
-void find_charts_of(const Mesh& mesh, std::vector<PlacedTriangle>& triangles) {
-    using End = std::tuple<double, double, double, double, double>;
-    std::map<End, std::size_t> at;
-    Joined joined(triangles.size());
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-        const auto corners = corners_of(mesh, triangles[t]);
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const Vec2& place = triangles[t].place[k];
-            const auto [found, is_new] =
-                at.try_emplace(End(place.x, place.y, corners[k].x, corners[k].y, corners[k].z), t);
-            if (!is_new)
-                joined.join(found->second, t);
-        }
-    }
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        triangles[t].chart = static_cast<std::uint32_t>(joined.find(t));
 }
 
 void add_once(std::vector<std::uint32_t>& groups, std::uint32_t group) {
@@ -127,6 +92,37 @@ Triangles LitSource::triangles_of(const PrimitiveOrigin& origin, std::size_t set
     return triangles;
 }
 
+const glm::dmat4& LitSource::to_world(const PrimitiveOrigin& origin) {
+    if (to_world_.empty())
+        for (const Instance& instance : instances_of(document_))
+            if (document_.nodes[instance.node].mesh)
+                for (const Instance& placed : placed_meshes(instance, buffers_))
+                    to_world_[{placed.node, placed.number}] = placed.to_world;
+    return to_world_.at({origin.node, origin.instance});
+}
+
+std::vector<Vec3> LitSource::normals_of(const PrimitiveOrigin& origin) {
+    std::vector<Vec3> normals(origin.vertices, Vec3(0.0));
+    const Index& accessor = primitive_of(origin).normals;
+    if (!accessor)
+        return normals;
+    const Elements elements(buffers_, *accessor);
+    elements.check("VEC3", {Component::int8, Component::int16, Component::float32});
+    const Triangles triangles = triangles_of(origin, 0);
+    const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(to_world(origin))));
+    for (std::size_t k = 0; k < normals.size(); ++k) {
+        const std::size_t v = triangles.vertex[k];
+        if (v >= elements.size())
+            elements.fail("expected as many elements as vertices, found " +
+                          std::to_string(elements.size()));
+        const Vec3 normal = turn * Vec3(elements.at(v, 0), elements.at(v, 1), elements.at(v, 2));
+        const double length = glm::length(normal);
+        if (length > 0 && std::isfinite(length))
+            normals[k] = normal / length;
+    }
+    return normals;
+}
+
 std::size_t LitSource::texcoord_sets() const {
     std::size_t sets = 0;
     for (const PrimitiveOrigin& origin : origins_)
@@ -142,8 +138,34 @@ std::vector<std::uint32_t> facets_by_face(const Mesh& mesh) {
     return by_face;
 }
 
+std::vector<CornerNormals> normals_of_file(LitSource& source, const Mesh& mesh) {
+    const Scene& scene = mesh.scene();
+    const std::vector<std::uint32_t> by_face = facets_by_face(mesh);
+    std::vector<CornerNormals> normals(scene.facets.size());
+    for (const PrimitiveOrigin& origin : source.origins()) {
+        const std::vector<Vec3> of_points = source.normals_of(origin);
+        for (std::uint32_t t = 0; t < origin.faces; ++t) {
+            const std::uint32_t f = by_face[origin.first_face + t];
+            if (f == none)
+                continue;
+            std::array<Vec3, 4> of_corners{};
+            Vec3 sum(0.0);
+            bool all = true;
+            for (std::size_t k = 0; k < 4; ++k) {
+                of_corners[k] = of_points[scene.facets[f].vertex[k] - origin.first_vertex];
+                all = all && of_corners[k] != Vec3(0.0);
+                sum += k < 3 ? of_corners[k] : Vec3(0.0);
+            }
+            const double side = glm::dot(sum, mesh.shape_of(f).area_vector()) < 0 ? -1 : 1;
+            for (std::size_t k = 0; all && k < 4; ++k)
+                normals[f][k] = glm::vec3(side * of_corners[k]);
+        }
+    }
+    return normals;
+}
+
 PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh, std::span<const ChartSide> sides,
-                           std::size_t set) {
+                           std::size_t set, std::span<const std::size_t> origins) {
     constexpr double rounding = 1e-5;
     const Scene& scene = mesh.scene();
     std::vector<std::uint32_t> side_of(scene.facets.size(), none);
@@ -151,7 +173,8 @@ PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh, std::span<const 
         side_of[sides[s].facet] = s;
     const std::vector<std::uint32_t> by_face = facets_by_face(mesh);
     PlacesOfFile found;
-    for (const PrimitiveOrigin& origin : source.origins()) {
+    for (const std::size_t o : origins) {
+        const PrimitiveOrigin& origin = source.origins()[o];
         const Triangles triangles = source.triangles_of(origin, set + 1);
         for (std::uint32_t t = 0; t < origin.faces; ++t) {
             const std::uint32_t f = by_face[origin.first_face + t];
@@ -177,19 +200,20 @@ PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh, std::span<const 
             found.triangles.push_back(placed);
         }
     }
-    find_charts_of(mesh, found.triangles);
+    join_charts(mesh, found.triangles);
     return found;
 }
 
 std::vector<AtlasCoordinates> atlas_coordinates(LitSource& source, const Mesh& mesh,
-                                                std::span<const PlacedTriangle> triangles) {
+                                                std::span<const PlacedTriangle> triangles,
+                                                std::span<const std::size_t> origins) {
     const Scene& scene = mesh.scene();
     std::vector<std::uint32_t> placed_of(scene.facets.size(), none);
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
         placed_of[triangles[t].facet] = t;
     const std::vector<std::uint32_t> by_face = facets_by_face(mesh);
     std::vector<AtlasCoordinates> all;
-    for (std::size_t o = 0; o < source.origins().size(); ++o) {
+    for (const std::size_t o : origins) {
         const PrimitiveOrigin& origin = source.origins()[o];
         const Triangles read = source.triangles_of(origin, 0);
         const Primitive& primitive = source.primitive_of(origin);

@@ -6,15 +6,20 @@
 #include "io/gltf/elements.h"
 #include "io/gltf/primitives.h"
 #include "io/lightmaps/chart_regions.h"
+#include "io/lightmaps/smooth_point.h"
 #include "io/lightmaps/texel_map.h"
 #include "io/scene_files/read_result.h"
+
+#include <glm/mat4x4.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hemilux {
@@ -47,6 +52,9 @@ class LitSource {
     [[nodiscard]] const std::vector<std::string>& warnings() const { return reported_; }
     /// Returns the triangles of an origin with texture coordinates of so many sets.
     [[nodiscard]] Triangles triangles_of(const PrimitiveOrigin& origin, std::size_t sets);
+    /// Returns the normals at an origin's points, unit, in the world; zero where the file has none
+    /// that is a direction. Throws InputError for elements of a wrong kind.
+    [[nodiscard]] std::vector<Vec3> normals_of(const PrimitiveOrigin& origin);
     /// Returns the number of the sets that the primitive with most of them has.
     [[nodiscard]] std::size_t texcoord_sets() const;
 
@@ -61,10 +69,17 @@ class LitSource {
     TriangleReader triangles_;
     std::vector<PrimitiveOrigin> origins_;
     std::vector<std::string> pictures_;
+    using Shown = std::pair<std::size_t, std::optional<std::size_t>>; ///< node, number of instance
+    std::map<Shown, glm::dmat4> to_world_; ///< found when normals are first asked for
+    [[nodiscard]] const glm::dmat4& to_world(const PrimitiveOrigin& origin);
 };
 
 /// The facets of the scene by face; none where a face has no area.
 [[nodiscard]] std::vector<std::uint32_t> facets_by_face(const Mesh& mesh);
+
+/// Returns the normals that the file has at the corners of facets, by facet; those of a facet that
+/// looks the other way in the scene are turned around. Throws as LitSource::normals_of().
+[[nodiscard]] std::vector<CornerNormals> normals_of_file(LitSource& source, const Mesh& mesh);
 
 /// The places of triangles in the texture coordinates that a file has.
 struct PlacesOfFile {
@@ -72,10 +87,11 @@ struct PlacesOfFile {
     /// Groups of facets, each once: those without coordinates, and with places beyond [0,1].
     std::vector<std::uint32_t> without, outside;
 };
-/// Returns the places of these sides in a set of the file. Charts are triangles that meet in the
-/// set as they do on the surface.
+/// Returns the places of these sides in a set of the file, as far as they are of the origins with
+/// these numbers. Charts are triangles that meet in the set as they do on the surface.
 [[nodiscard]] PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh,
-                                         std::span<const ChartSide> sides, std::size_t set);
+                                         std::span<const ChartSide> sides, std::size_t set,
+                                         std::span<const std::size_t> origins);
 
 /// The texture coordinates of a primitive in an atlas. Vertices at which charts meet are there once
 /// for each chart: the further ones stand behind those of the file.
@@ -85,9 +101,11 @@ struct AtlasCoordinates {
     std::vector<std::uint32_t> further; ///< vertices of the file that the further ones copy
     std::vector<std::array<std::uint32_t, 3>> corners; ///< vertices by triangle
 };
-/// Returns the coordinates of primitives of which some triangle is placed, from places in [0,1].
+/// Returns the coordinates of primitives of which some triangle is placed, from places in [0,1], as
+/// far as they are of the origins with these numbers.
 [[nodiscard]] std::vector<AtlasCoordinates>
-atlas_coordinates(LitSource& source, const Mesh& mesh, std::span<const PlacedTriangle> triangles);
+atlas_coordinates(LitSource& source, const Mesh& mesh, std::span<const PlacedTriangle> triangles,
+                  std::span<const std::size_t> origins);
 
 } // namespace gltf
 } // namespace hemilux

@@ -2,6 +2,7 @@
 
 #include "io/files/error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -80,8 +81,31 @@ void TriangleReader::number_points(Triangles& triangles, std::size_t vertices) {
         point_of_[vertex] = none;
 }
 
+/// Returns the colours of COLOR_0, which may have an alpha that is passed over.
+std::vector<glm::vec3> TriangleReader::colours_of_points(std::size_t accessor,
+                                                         std::size_t vertices) {
+    const Elements colours(buffers_, accessor);
+    const bool has_alpha = buffers_.document().accessors[accessor].type == "VEC4";
+    colours.check(has_alpha ? "VEC4" : "VEC3",
+                  {Component::uint8, Component::uint16, Component::float32});
+    if (colours.size() < vertices)
+        colours.fail("expected " + std::to_string(vertices) +
+                     " elements, as many as vertices, found " + std::to_string(colours.size()));
+    std::vector<glm::vec3> of_points;
+    of_points.reserve(used_.size());
+    for (const std::uint32_t v : used_) {
+        const glm::vec3 colour(colours.at(v, 0), colours.at(v, 1), colours.at(v, 2));
+        if (!(std::min({colour.r, colour.g, colour.b}) >= 0) ||
+            !std::isfinite(colour.r + colour.g + colour.b))
+            colours.fail("element " + std::to_string(v) +
+                         ": expected finite numbers of at least 0");
+        of_points.push_back(colour);
+    }
+    return of_points;
+}
+
 Triangles TriangleReader::read(const Primitive& primitive, const std::string& place,
-                               std::size_t texcoord_sets) {
+                               std::size_t texcoord_sets, bool with_colours) {
     Triangles triangles;
     const std::size_t count = count_triangles(primitive, buffers_, place);
     if (count == 0)
@@ -123,6 +147,8 @@ Triangles TriangleReader::read(const Primitive& primitive, const std::string& pl
             of_points.emplace_back(uv);
         }
     }
+    if (with_colours && primitive.colours)
+        triangles.colours = colours_of_points(*primitive.colours, positions.size());
     return triangles;
 }
 

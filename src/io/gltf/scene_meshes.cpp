@@ -39,8 +39,14 @@ const Triangles& SceneMeshes::triangles_of(std::size_t mesh, std::size_t number)
     if (!of_mesh[number])
         of_mesh[number] =
             triangles_.read(primitives[number], place_of(mesh, number),
-                            std::min(maps_.sets(), primitives[number].texcoords.size()));
+                            std::min(maps_.sets(), primitives[number].texcoords.size()),
+                            is_unlit(primitives[number]));
     return *of_mesh[number];
+}
+
+/// Returns whether the colours of a primitive are light, those of its vertices too.
+bool SceneMeshes::is_unlit(const Primitive& primitive) const {
+    return primitive.material && document_.materials[*primitive.material].unlit;
 }
 
 void SceneMeshes::add(const Instance& instance) {
@@ -57,15 +63,15 @@ void SceneMeshes::add_primitive(const Instance& instance, std::size_t mesh, std:
                                 std::uint32_t group) {
     const Primitive& primitive = document_.meshes[mesh].primitives[number];
     tally_.lines += primitive.mode < Mode::triangles;
-    tally_.coloured += primitive.has_colours;
+    tally_.coloured += primitive.colours && !is_unlit(primitive);
     tally_.morphed += primitive.has_targets;
     if (!primitive.position || primitive.mode < Mode::triangles)
         return;
     const Triangles& triangles = triangles_of(mesh, number);
     const std::uint32_t material =
         primitive.material ? static_cast<std::uint32_t>(*primitive.material) : default_material();
-    tally_.without_coordinates +=
-        result_.scene.colours_vary_on(material) && primitive.texcoords.size() < maps_.sets();
+    tally_.without_coordinates += textures_of(result_.scene).has_texture(material) &&
+                                  primitive.texcoords.size() < maps_.sets();
     Scene& scene = result_.scene;
     const auto first = static_cast<std::uint32_t>(scene.vertices.size());
     place(triangles.points, instance);
@@ -85,6 +91,8 @@ void SceneMeshes::add_primitive(const Instance& instance, std::size_t mesh, std:
         scene.facets.push_back(
             {{first + a, first + b, first + c, first + c}, face, material, group});
         add_texcoords(primitive, triangles, {a, b, c});
+        if (!triangles.colours.empty())
+            add_tints(triangles, {a, b, c});
     }
     scene.vertices.insert(scene.vertices.end(), world_.begin(), world_.end());
 }
@@ -98,6 +106,22 @@ void SceneMeshes::add_texcoords(const Primitive& primitive, const Triangles& tri
             for (std::size_t k = 0; k < 4; ++k)
                 to[k] = triangles.texcoords[set][corners[std::min<std::size_t>(k, 2)]];
     }
+}
+
+/// Adds the colours of corners to the facet that was added last, whose material is unlit.
+void SceneMeshes::add_tints(const Triangles& triangles,
+                            const std::array<std::uint32_t, 3>& corners) {
+    SceneTextures& textures = own_textures_of(result_.scene);
+    const std::uint32_t material = result_.scene.facets.back().material;
+    textures.of_material.resize(document_.materials.size());
+    MaterialTextures& of_material = textures.of_material[material];
+    if (!of_material.emission.texture) // else it has the factor already
+        of_material.emission.factor = result_.scene.materials[material].emission;
+    of_material.tinted = true;
+    constexpr Tints none{glm::vec3(1.0f), glm::vec3(1.0f), glm::vec3(1.0f), glm::vec3(1.0f)};
+    textures.tints.resize(result_.scene.facets.size(), none);
+    for (std::size_t k = 0; k < 4; ++k)
+        textures.tints.back()[k] = triangles.colours[corners[std::min<std::size_t>(k, 2)]];
 }
 
 /// Finds the places of a primitive's points in the world.

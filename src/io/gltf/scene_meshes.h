@@ -40,6 +40,8 @@ class SceneMeshes {
     void place(const std::vector<Vec3>& points, const Instance& instance);
     void add_texcoords(const Primitive& primitive, const Triangles& triangles,
                        const std::array<std::uint32_t, 3>& corners);
+    void add_tints(const Triangles& triangles, const std::array<std::uint32_t, 3>& corners);
+    [[nodiscard]] bool is_unlit(const Primitive& primitive) const;
     [[nodiscard]] const Triangles& triangles_of(std::size_t mesh, std::size_t number);
     [[nodiscard]] std::uint32_t group_of(const std::string& name);
     [[nodiscard]] std::uint32_t default_material();

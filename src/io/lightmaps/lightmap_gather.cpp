@@ -38,8 +38,7 @@ GatherGrid grid_of(const TexelMap& texels, const std::vector<bool>& covered,
                     }
             if (!(least <= TexelMap::reach))
                 continue;
-            point.at = texels.point_near(nearest, Vec2(left, top) + step / 2.0);
-            point.at.patch = none;
+            point.at = texels.receiver_near(nearest, Vec2(left, top) + step / 2.0);
             point.part = texels.triangle(nearest).chart;
         }
     });
@@ -49,7 +48,7 @@ GatherGrid grid_of(const TexelMap& texels, const std::vector<bool>& covered,
 /// Returns the irradiance of a place: the share of direct light that arrives is that of its own
 /// shadow rays. An average over texels around, as pictures take, would move shadows by texels.
 Vec3 irradiance_of(const PictureGather::Light& light) {
-    Vec3 irradiance(light.slow.indirect);
+    Vec3 irradiance = Vec3(light.slow.indirect) + light.of_points;
     for (int c = 0; c < 3; ++c)
         if (light.direct.unshadowed[c] > 0)
             irradiance[c] += double(light.slow.unshadowed[c]) *
@@ -94,9 +93,8 @@ GatheredLightmap gather_lightmap(const Mesh& mesh, const Tracer& tracer, const S
                 const std::size_t texel = texels.index(x, y);
                 if (!lightmap.known[texel])
                     continue;
-                SurfacePoint at = texels.point(texel);
-                at.patch = none;
-                places.push_back({at, Vec2(x + .5, y + .5), 0, 1, texels.triangle(texel).chart});
+                places.push_back({texels.receiver(texel), Vec2(x + .5, y + .5), 0, 1,
+                                  texels.triangle(texel).chart});
                 which.push_back(texel);
             }
         const std::vector<PictureGather::Light> lights = gather.irradiance(places);
@@ -243,14 +241,13 @@ PictureError lightmap_error(const Mesh& mesh, const Tracer& tracer, const Surfac
     for (double next = 0; next < double(shown.size()); next += each) {
         const std::size_t texel = shown[std::min(
             static_cast<std::size_t>(next + rng.uniform() * each), shown.size() - 1)];
-        SurfacePoint at = texels.point(texel);
+        const SurfacePoint at = texels.point(texel);
         Colours colours{Vec3(1.0), Vec3(0.0)};
         if (bake == Bake::radiosity)
             colours = colours_at(mesh, mesh.patches()[at.patch], at.position);
         if (colours.reflectance == Vec3(0.0))
             continue;
-        at.patch = none;
-        judged.push_back({{{at, colours}}, Vec3(lightmap.image.pixels[texel])});
+        judged.push_back({{{texels.receiver(texel), colours}}, Vec3(lightmap.image.pixels[texel])});
     }
     return error_of_pixels(mesh, tracer, light, judged, seed, bake == Bake::indirect, workers);
 }

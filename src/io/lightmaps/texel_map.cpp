@@ -169,7 +169,18 @@ void TexelMap::paint(std::uint32_t number, OverlapCounts& overlaps) {
     }
 }
 
+/// From a point on the edge of a facet half of the rays would begin on the wall beside it, and miss
+/// that. So points keep a little from all edges.
 SurfacePoint TexelMap::point_of(const PlacedTriangle& triangle, double u, double v) const {
+    constexpr double least = 1e-6; // share of a corner
+    if (std::min({1 - u - v, u, v}) < least) {
+        const double w = std::max(1 - u - v, least);
+        u = std::max(u, least);
+        v = std::max(v, least);
+        const double sum = w + u + v;
+        u /= sum;
+        v /= sum;
+    }
     const auto [a, b, c] = corners_of(mesh_, triangle);
     const std::uint32_t patch =
         mesh_.patch_at({triangle.facet, 0, u, v, triangle.second_half, !triangle.back});
@@ -184,6 +195,34 @@ SurfacePoint TexelMap::point_near(std::size_t texel, const Vec2& place) const {
     const PlacedTriangle& on = triangle(texel);
     const auto [u, v, square] = nearest_place_on(on.place, place);
     return point_of(on, u, v);
+}
+
+void TexelMap::set_normals(std::span<const CornerNormals> normals, const Tracer& tracer) {
+    normals_ = normals;
+    tracer_ = &tracer;
+}
+
+SurfacePoint TexelMap::receiver_of(const PlacedTriangle& triangle, double u, double v) const {
+    SurfacePoint flat = point_of(triangle, u, v);
+    flat.patch = none;
+    if (normals_.empty() || normals_[triangle.facet] == CornerNormals{})
+        return flat;
+    SmoothTriangle smooth{corners_of(mesh_, triangle), {}};
+    const CornerNormals& of_corners = normals_[triangle.facet];
+    for (std::size_t k = 0; k < 3; ++k)
+        smooth.normal[k] = (triangle.back ? -1.0 : 1.0) *
+                           Vec3(of_corners[triangle.second_half && k > 0 ? k + 1 : k]);
+    return smooth_point(flat, smooth, u, v, *tracer_);
+}
+
+SurfacePoint TexelMap::receiver(std::size_t texel) const {
+    return receiver_of(triangle(texel), texels_[texel].u, texels_[texel].v);
+}
+
+SurfacePoint TexelMap::receiver_near(std::size_t texel, const Vec2& place) const {
+    const PlacedTriangle& on = triangle(texel);
+    const auto [u, v, square] = nearest_place_on(on.place, place);
+    return receiver_of(on, u, v);
 }
 
 double TexelMap::side(std::size_t texel) const {

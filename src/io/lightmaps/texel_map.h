@@ -3,6 +3,7 @@
 
 #include "bvh/tracer.h"
 #include "geometry/vector.h"
+#include "io/lightmaps/smooth_point.h"
 #include "radiosity/engine/rays/surface_point.h"
 
 #include <array>
@@ -55,6 +56,13 @@ class TexelMap {
     [[nodiscard]] SurfacePoint point(std::size_t texel) const;
     /// Returns the point at a place [texels] near a texel, on the same triangle.
     [[nodiscard]] SurfacePoint point_near(std::size_t texel, const Vec2& place) const;
+    /// Lets points receive light with these normals, by facet (smooth_point.h). Both must outlive
+    /// this object.
+    void set_normals(std::span<const CornerNormals> normals, const Tracer& tracer);
+    /// Return these points as they receive light, without their patch: those above where no normals
+    /// were set.
+    [[nodiscard]] SurfacePoint receiver(std::size_t texel) const;
+    [[nodiscard]] SurfacePoint receiver_near(std::size_t texel, const Vec2& place) const;
     /// Returns about the side of a texel on the surface, in local units.
     [[nodiscard]] double side(std::size_t texel) const;
 
@@ -76,12 +84,16 @@ class TexelMap {
     using OverlapCounts = std::vector<std::pair<std::uint64_t, Overlap>>;
     void paint(std::uint32_t number, OverlapCounts& overlaps);
     [[nodiscard]] SurfacePoint point_of(const PlacedTriangle& triangle, double u, double v) const;
+    [[nodiscard]] SurfacePoint receiver_of(const PlacedTriangle& triangle, double u,
+                                           double v) const;
 
     const Mesh& mesh_;
     std::vector<PlacedTriangle> triangles_;
     int size_;
     std::vector<Texel> texels_;
     std::vector<Overlap> overlaps_;
+    std::span<const CornerNormals> normals_; ///< by facet; empty: those of facets
+    const Tracer* tracer_ = nullptr;
 };
 
 /// Returns the corners of a placed triangle in the local frame.

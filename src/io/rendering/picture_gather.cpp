@@ -151,7 +151,8 @@ void PictureGather::judge_points(const Workers& workers) {
 }
 
 /// Traces shadow rays where some rays of the points around were blocked and some were not. Where no
-/// point is around, it traces all rays.
+/// point is around, it traces all rays. On a bent surface, light straight from emitters ends where
+/// that turns away, also without a shadow: there each place has all of its own.
 std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Place> places) const {
     SomePoints all, alone, in_penumbra;
     std::vector<Light> found(places.size());
@@ -169,7 +170,8 @@ std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Plac
             slow = around->light;
         else
             alone.add(k, place.at, samples_of(x, y, 4 * options_.rays));
-        if (around && (around->shadow == none_blocked || around->shadow == all_blocked)) {
+        if (around && !place.at.is_raised &&
+            (around->shadow == none_blocked || around->shadow == all_blocked)) {
             direct.unshadowed = Vec3(slow.unshadowed);
             direct.arriving = around->shadow == none_blocked ? direct.unshadowed : Vec3(0.0);
             continue;
@@ -184,8 +186,12 @@ std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Plac
         found[k].of_points = of_points[k];
     const std::vector<EmitterLight> direct =
         in_parts_.direct(in_penumbra.points, in_penumbra.samples, Shadows::traced);
-    for (std::size_t i = 0; i < direct.size(); ++i)
-        found[in_penumbra.which[i]].direct = direct[i];
+    for (std::size_t i = 0; i < direct.size(); ++i) {
+        const std::size_t k = in_penumbra.which[i];
+        found[k].direct = direct[i];
+        if (places[k].at.is_raised)
+            found[k].slow.unshadowed = glm::vec3(direct[i].unshadowed);
+    }
     const std::vector<IndirectLight> lights = in_parts_.indirect(alone.points, alone.samples);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         Light& light = found[alone.which[i]];

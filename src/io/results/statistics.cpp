@@ -103,6 +103,12 @@ Json to_object(const Statistics& s) {
                                    {"bytes_sent", work.sent},
                                    {"bytes_received", work.received},
                                    {"bytes_peak", bytes_peak}});
+    for (const ObjectFigures& of : s.objects)
+        object["objects"].push_back({{"name", of.name},
+                                     {"texels", of.texels},
+                                     {"rays", of.rays},
+                                     {"estimated_error", of.error},
+                                     {"error_bound", of.bound}});
     object["program"] = s.program;
     object["settings"] = settings(s.settings);
     return object;

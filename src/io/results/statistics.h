@@ -37,6 +37,13 @@ struct LayerFigures {
     double error = 0; ///< relative, of the layer by itself; NaN where it is not known
 };
 
+/// The error of an object of a lightmap, where each has its own.
+struct ObjectFigures {
+    std::string name;
+    std::uint64_t texels, rays; ///< rays at each texel
+    double error, bound;        ///< of the share of the hemisphere; 95 % are below the bound
+};
+
 struct Statistics {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); ///< JSON: null
 
@@ -92,7 +99,8 @@ struct Statistics {
     std::vector<LeftOut> left_out;
     /// The figures of each rank, where there are several.
     std::vector<RankFigures> ranks = {};
-    std::string program; ///< program with its version, whose defaults hold
+    std::vector<ObjectFigures> objects = {}; ///< of the lightmap of --bake ao
+    std::string program;                     ///< program with its version, whose defaults hold
     std::vector<GivenOption> settings;
 };
 

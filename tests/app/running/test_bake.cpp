@@ -1,91 +1,27 @@
 // hemilux bake: the scene's own file comes back with its light, and nothing of it is lost.
 #include "app/check_fails.h"
-#include "io/gltf/gltf_text.h"
+#include "app/running/small_room.h"
 #include "support/catch.h"
 
-#include <nlohmann/json.hpp>
-
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
+#include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
-using namespace hemilux::test;
 using Catch::Contains;
 using test::check_fails;
+using test::fast;
+using test::floats_of;
+using test::Glb;
+using test::glb_from;
+using test::Json;
+using test::SmallRoom;
 using test::Workplace;
-using Json = nlohmann::json;
 
 namespace {
-
-/// The scene: a floor of 2 x 2 m below a lamp, and a cube on the floor whose eight vertices its
-/// faces share. `second` are the places of the floor and the lamp in TEXCOORD_1.
-struct SmallRoom {
-    std::vector<float> second{0, 0, .45f, 0, .45f, .45f, 0, .45f};
-    bool cube = true, cube_twice = false;
-
-    [[nodiscard]] std::string text() const {
-        const std::vector<float> floor{-1, 0, 1, 1, 0, 1, 1, 0, -1, -1, 0, -1},
-            lamp{-.5f, 2, -.5f, .5f, 2, -.5f, .5f, 2, .5f, -.5f, 2, .5f},
-            first{0, 0, 1, 0, 1, 1, 0, 1}, of_lamp{.5f, .5f, 1, .5f, 1, 1, .5f, 1};
-        std::vector<float> corners;
-        for (int k = 0; k < 8; ++k)
-            for (const float x : {k & 1 ? .2f : -.2f, k & 2 ? .4f : 0.f, k & 4 ? .2f : -.2f})
-                corners.push_back(x);
-        const std::vector<std::uint16_t> quad{0, 1, 2, 0, 2, 3},
-            sides{0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
-                  2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
-        const auto accessor = [](int view, const char* type, std::size_t count, int component) {
-            return R"({"bufferView":)" + std::to_string(view) + R"(,"componentType":)" +
-                   std::to_string(component) + R"(,"count":)" + std::to_string(count) +
-                   R"(,"type":")" + type + R"("})";
-        };
-        const std::string accessors =
-            accessor(0, "VEC3", 4, 5126) + "," + accessor(1, "VEC3", 4, 5126) + "," +
-            accessor(2, "VEC2", 4, 5126) + "," + accessor(3, "VEC2", 4, 5126) + "," +
-            accessor(4, "VEC2", 4, 5126) + "," + accessor(5, "SCALAR", 6, 5123) + "," +
-            accessor(6, "VEC3", 8, 5126) + "," + accessor(7, "SCALAR", 36, 5123);
-        const std::string cubes =
-            std::string(cube ? R"(,{"name":"cube","mesh":2,"extras":{"kept":[1,2.5,"x"]}})" : "") +
-            (cube_twice ? R"(,{"name":"other cube","mesh":2,"translation":[0.6,0,0.6]})" : "");
-        const std::string members =
-            R"("accessors":[)" + accessors + R"(],"scene":0,"scenes":[{"nodes":[0)" +
-            (cube ? std::string(",3") + (cube_twice ? ",4" : "") : "") + R"(]}],"nodes":[)" +
-            R"({"name":"all","children":[1,2],"extensions":{"X_unknown":{"a":1}}},)" +
-            R"({"name":"floor","mesh":0},{"name":"lamp","mesh":1})" + cubes +
-            R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":2,)" +
-            R"("TEXCOORD_1":3},"indices":5,"material":0}]},)" +
-            R"({"primitives":[{"attributes":{"POSITION":1,"TEXCOORD_0":2,"TEXCOORD_1":4},)" +
-            R"("indices":5,"material":1}]},)" +
-            R"({"name":"c","primitives":[{"attributes":{"POSITION":6},"indices":7}]}],)" +
-            R"("materials":[{"name":"paint","pbrMetallicRoughness":{"baseColorFactor":)" +
-            R"([0.5,0.5,0.5,1],"metallicFactor":0}},{"name":"light","emissiveFactor":[1,1,1],)" +
-            R"("pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1],"metallicFactor":0}}],)" +
-            R"("extensionsUsed":["X_unknown"],"extras":{"by":"hand"})";
-        return gltf_text({bytes_of(floor), bytes_of(lamp), bytes_of(first), bytes_of(second),
-                          bytes_of(of_lamp), bytes_of(quad), bytes_of(corners), bytes_of(sides)},
-                         members);
-    }
-};
-
-struct Glb {
-    Json json;
-    std::string binary;
-};
-
-Glb glb_from(const std::string& bytes) {
-    const auto word = [&](std::size_t at) {
-        std::uint32_t value = 0;
-        std::memcpy(&value, bytes.data() + at, sizeof value);
-        return std::size_t{value};
-    };
-    REQUIRE(bytes.size() > 28);
-    REQUIRE(word(8) == bytes.size());
-    const std::size_t json = word(12);
-    REQUIRE(json % 4 == 0);
-    return {Json::parse(bytes.substr(20, json)), bytes.substr(28 + json, word(20 + json))};
-}
 
 /// Everything that `before` has is in `after`, with the same value, but for what lies at these
 /// paths.
@@ -109,19 +45,6 @@ void check_additions(const Json& before, const Json& after, const std::string& p
         CHECK(before == after);
     }
 }
-
-std::vector<float> floats_of(const Glb& file, std::size_t accessor) {
-    const Json& of = file.json["accessors"][accessor];
-    const Json& view = file.json["bufferViews"][of["bufferView"].get<std::size_t>()];
-    const std::size_t components = of["type"] == "VEC2" ? 2 : 3;
-    std::vector<float> floats(of["count"].get<std::size_t>() * components);
-    std::memcpy(floats.data(),
-                file.binary.data() + view.value("byteOffset", 0) + of.value("byteOffset", 0),
-                floats.size() * sizeof(float));
-    return floats;
-}
-
-constexpr const char* fast = " -q --error 10% --max-rays 200000 --gather 4 --lightmap 64 ";
 
 } // namespace
 
@@ -203,9 +126,7 @@ TEST_CASE("bake names overlaps and places beyond the square by object") {
     check_fails(place, 2, "bake beyond.gltf -o lit.glb --lightmap-uv 7",
                 "these objects have no place in it: floor, lamp");
     check_fails(place, 1, "bake beyond.gltf -o lit.glb --bake radiosity", "--bind unlit");
-    place.write_room();
-    check_fails(place, 1, "bake room.obj -o lit.glb", "bake is for glTF files");
-    check_fails(place, 1, "bake over.gltf -o lit.obj", "a file name that ends with .glb");
+    check_fails(place, 1, "bake over.gltf -o lit.png", "a file name that ends with .glb");
     place.write("self.glb", "");
     check_fails(place, 1, "bake self.glb -o self.glb", "are one file");
     CHECK_FALSE(place.has("lit.glb"));
@@ -294,4 +215,35 @@ TEST_CASE("bake keeps instances that are so far away that their triangles have n
     CHECK(nodes[1]["matrix"][12] == 0.0);
     CHECK(nodes[2]["matrix"][12].get<double>() > 1e17);
     CHECK_THAT(place.hemilux("info lit.glb").err, Contains("2 triangles without area"));
+}
+
+TEST_CASE("a file that solve has lit is read as what it shows") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(place.hemilux("solve room.obj -q --steps 4 --divide none -o lit.glb").code == 0);
+    const auto again = place.hemilux("solve lit.glb --steps 2 --divide none -o again.csv");
+    CAPTURE(again.err);
+    REQUIRE(again.code == 0);
+    CHECK_THAT(again.err,
+               Contains("material 'light' is unlit") && Contains("nothing is reflected"));
+    // The column of the reflectance of red is zero, and that of its emission is its radiosity.
+    std::istringstream rows(place.read("again.csv"));
+    std::string row;
+    std::getline(rows, row);
+    double most = 0;
+    std::size_t count = 0;
+    while (std::getline(rows, row)) {
+        std::vector<std::string> cells;
+        std::istringstream line(row);
+        for (std::string cell; std::getline(line, cell, ',');)
+            cells.push_back(cell);
+        REQUIRE(cells.size() > 16);
+        CHECK(std::stod(cells[11]) == 0);
+        CHECK(cells[14] == cells[17]);
+        most = std::max(most, std::stod(cells[14]));
+        ++count;
+    }
+    CHECK(count > 24);
+    CHECK(most > .1);
+    CHECK(most <= std::numbers::pi * 1.0001); // as glTF limits colours to 1
 }

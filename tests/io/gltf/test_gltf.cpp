@@ -5,6 +5,7 @@
 #include "geometry/polygon.h"
 #include "io/gltf/gltf_text.h"
 #include "radiosity/engine/rays/point_emitter.h"
+#include "radiosity/light/textures/textured_facets.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 
@@ -152,6 +153,52 @@ TEST_CASE("materials: base colour, emission, and what is not diffuse", "[gltf]")
     CHECK(warns_of(result, "a material is a metal"));
     CHECK(warns_of(result, "a material is transparent"));
     CHECK(result.material_source.at(1).ends_with("s.gltf: /materials/1"));
+}
+
+TEST_CASE("unlit materials emit what they show, colours of vertices included", "[gltf]") {
+    // A square whose two triangles share the colours of their corners: red 1 on the left, 0.5 on
+    // the right.
+    const std::vector<float> colours{1, 0, 0, 1, .5f, 0, 0, 1, .5f, 0, 0, 1, 1, 0, 0, 1};
+    const std::vector<std::uint16_t> indices{0, 1, 2, 0, 2, 3};
+    const auto with_material = [&](const std::string& material) {
+        return read(gltf_text(
+            {bytes_of(square), bytes_of(indices), bytes_of(colours)},
+            R"("accessors":[)" + positions +
+                R"(,{"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"},)"
+                R"({"bufferView":2,"componentType":5126,"count":4,"type":"VEC4"}],)"
+                R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":2},"indices":1,)"
+                R"("material":0}]}],)" +
+                one_node + R"(,"materials":[)" + material + "]"));
+    };
+    const ReadResult result =
+        with_material(R"({"name":"shown","pbrMetallicRoughness":{"baseColorFactor":[0.5,1,1,1]},)"
+                      R"("emissiveFactor":[0,0,9],"extensions":{"KHR_materials_unlit":{}}})");
+    const Material& material = result.scene.materials.at(0);
+    CHECK(material.reflectance == Vec3(0.0));
+    CHECK(material.emission.r == Approx(std::numbers::pi * .5 * .75));
+    CHECK(material.emission.g == 0);
+    CHECK(material.emission.b == 0);
+    REQUIRE(result.scene.colours_vary_on(0));
+    for (std::uint32_t f = 0; f < 2; ++f) {
+        const Polygon shape = polygon_of(result.scene.vertices, result.scene.facets[f].vertex);
+        for (const double x : {.3, .5, .6}) { // both triangles have a point there
+            const Vec3 point(x, f == 0 ? x / 2 : (1 + x) / 2, 0);
+            CHECK(colours_at_point(result.scene, f, shape, point).emission.r ==
+                  Approx(std::numbers::pi * .5 * (1 - x / 2)));
+        }
+        // The mean of a triangle is the colour at its centre.
+        CHECK(mean_colours(result.scene, f, shape, shape).emission.r ==
+              Approx(std::numbers::pi * .5 * (1 - shape.centre().x / 2)));
+    }
+    CHECK(warns_of(result, "material 'shown' is unlit (KHR_materials_unlit)"));
+    CHECK_FALSE(warns_of(result, "colours of vertices"));
+    CHECK_FALSE(warns_of(result, "a metal"));
+
+    // Those of a material that is lit are colours of a surface, which are not read.
+    const ReadResult lit = with_material(R"({"name":"lit"})");
+    CHECK(lit.scene.materials.at(0).emission == Vec3(0.0));
+    CHECK(warns_of(lit, "colours of vertices, which are not read"));
+    CHECK_FALSE(lit.scene.colours_vary_on(0));
 }
 
 TEST_CASE("buffers lie in the file, beside it, or in the binary chunk", "[gltf]") {

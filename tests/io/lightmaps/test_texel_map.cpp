@@ -3,6 +3,7 @@
 #include "io/lightmaps/covered_texels.h"
 #include "io/lightmaps/lightmap_gather.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/final_gather/light_at_points.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
@@ -165,6 +166,56 @@ TEST_CASE("texels have the light of their points, also where a block stands on t
         // Patches reflect nothing in this light; paths find what the near block does.
         CHECK(indirect.image.at(5, 5).x < .02f * lightmap.image.at(5, 5).x);
     }
+}
+
+TEST_CASE("texels have the light of lights without extent, unless only what is reflected counts") {
+    constexpr int size = 32;
+    Scene scene;
+    scene.groups = {"floor"};
+    scene.materials = {{"a", Vec3(.5), Vec3(0)}};
+    add_quad(scene, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, 1, 1, 0);
+    const Vec3 lamp(.5, 1.5, -.25);
+    add_point_emitter(scene, {.name = "lamp", .position = lamp, .intensity = Vec3(10, 5, 2)});
+    const Model model(scene);
+    const TexelMap texels(model.mesh, BlockOnFloor::placed(model.mesh, size), size);
+    const std::vector<Vec3> dark(model.mesh.patches().size(), Vec3(0.0));
+    const SurfaceLight light(model.mesh, PatchLight(dark));
+    const std::vector<bool> covered(texels.count());
+    const Workers workers(2);
+    const GatheredLightmap lightmap = gather_lightmap(model.mesh, model.bvh, light, texels, covered,
+                                                      {.bake = Bake::irradiance}, workers);
+    for (std::size_t texel = 0; texel < texels.count(); ++texel) {
+        const Vec3 way = lamp - model.mesh.frame().to_world(texels.point(texel).position);
+        const double distance = glm::length(way);
+        REQUIRE(lightmap.image.pixels[texel].x ==
+                Approx(10 * way.y / std::pow(distance, 3)).epsilon(1e-3));
+    }
+    CHECK(lightmap_error(model.mesh, model.bvh, light, texels, lightmap, Bake::irradiance, 256, 3,
+                         workers)
+              .error < 1e-3);
+    const GatheredLightmap indirect = gather_lightmap(model.mesh, model.bvh, light, texels, covered,
+                                                      {.bake = Bake::indirect}, workers);
+    CHECK(indirect.image.at(9, 9) == glm::vec3(0));
+}
+
+TEST_CASE("in a room of one radiosity texels at the edges of walls have all the light") {
+    constexpr int size = 64;
+    const Model model(box_room({0, 0, 0}, {3, 2, 2}, 1, {{"a", Vec3(0), Vec3(1)}}, {}));
+    const TexelMap texels(model.mesh, placed_triangles(model.mesh, find_charts(model.mesh, size)),
+                          size);
+    const std::vector<Vec3> sent(model.mesh.patches().size(), Vec3(1.0));
+    const SurfaceLight light(model.mesh, PatchLight(sent));
+    const GatheredLightmap lightmap =
+        gather_lightmap(model.mesh, model.bvh, light, texels, std::vector<bool>(texels.count()),
+                        {.bake = Bake::irradiance, .rays = 64}, Workers(2));
+    std::size_t edges = 0;
+    for (std::size_t k = 0; k < texels.count(); ++k) {
+        if (!texels.shows(k))
+            continue;
+        edges += !texels.is_inside(k);
+        REQUIRE(lightmap.image.pixels[k].x == Approx(1).margin(.01));
+    }
+    CHECK(edges > 300);
 }
 
 TEST_CASE("gutters and covered texels take the light beside them") {

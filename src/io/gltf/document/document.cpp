@@ -72,7 +72,8 @@ Primitive read_primitive(const JsonValue& value, const Document& document) {
     constexpr std::size_t last_mode = static_cast<std::size_t>(Mode::fan);
     primitive.mode = static_cast<Mode>(
         value.whole_or("mode", static_cast<std::size_t>(Mode::triangles), last_mode));
-    primitive.has_colours = attributes.find("COLOR_0").has_value();
+    primitive.normals = attributes.index_in("NORMAL", accessors, "accessors");
+    primitive.colours = attributes.index_in("COLOR_0", accessors, "accessors");
     primitive.has_targets = value.find("targets").has_value();
     for (std::size_t set = 0;; ++set) {
         const std::string name = "TEXCOORD_" + std::to_string(set);

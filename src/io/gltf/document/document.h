@@ -73,6 +73,9 @@ struct MaterialInfo {
     double metallic = 1;
     bool transparent = false; ///< has an alpha mode or lets light through
     bool double_sided = false;
+    /// KHR_materials_unlit: the base colour is what it shows, whatever light arrives. Such a
+    /// material has it as `emissive`, with its texture, and reflects nothing.
+    bool unlit = false;
 };
 
 enum class Mode : std::uint8_t { points, lines, loop, line_strip, triangles, strip, fan };
@@ -81,7 +84,9 @@ struct Primitive {
     Index indices, material;
     Mode mode = Mode::triangles;
     std::vector<Index> texcoords; ///< accessors by set
-    bool has_colours = false, has_targets = false;
+    Index normals;                ///< NORMAL
+    Index colours;                ///< COLOR_0
+    bool has_targets = false;
 };
 struct MeshInfo {
     std::string name;

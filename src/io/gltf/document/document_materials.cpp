@@ -3,6 +3,7 @@
 #include "io/gltf/document/document.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace hemilux::gltf {
 namespace {
@@ -63,6 +64,12 @@ MaterialInfo read_material(const JsonValue& value, const Document& document) {
     }
     if (const auto transmission = value.extension("KHR_materials_transmission"))
         material.transparent |= transmission->number_or("transmissionFactor", 0) > 0;
+    material.unlit = value.extension("KHR_materials_unlit").has_value();
+    if (material.unlit) {
+        material.emissive = std::exchange(material.base_colour, Vec3(0.0));
+        material.emissive_texture = std::exchange(material.base_texture, std::nullopt);
+        material.metallic = 0;
+    }
     return material;
 }
 

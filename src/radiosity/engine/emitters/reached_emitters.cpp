@@ -37,7 +37,7 @@ std::optional<ReachedEmitters::Aimed>
 ReachedEmitters::aim(const EmitterChoice::Choice& chosen, const SurfacePoint& point, Vec2 u) const {
     const Emitter& emitter = emitters_[chosen.emitter];
     Ray ray{};
-    const double factor = look_from(point.position, point.normal, point.facet, emitter.side,
+    const double factor = look_from(point.position, point.normal, point.from(), emitter.side,
                                     emitter.points, u, emitter.near, ray);
     if (!(factor > 0))
         return std::nullopt;

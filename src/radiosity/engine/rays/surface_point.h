@@ -16,9 +16,13 @@ struct SurfacePoint {
     /// The patch that it lies on, whose points may choose emitters by the same chances. A point
     /// without one uses its own.
     std::uint32_t patch = none;
+    /// The point lies above its facet, which rays from it may meet as any other.
+    bool is_raised = false;
 
+    /// Returns the facet that rays from the point leave out, or none.
+    [[nodiscard]] std::uint32_t from() const { return is_raised ? none : facet; }
     [[nodiscard]] Ray ray(const Vec3& direction) const {
-        return {.origin = position, .direction = direction, .from = facet};
+        return {.origin = position, .direction = direction, .from = from()};
     }
 };
 

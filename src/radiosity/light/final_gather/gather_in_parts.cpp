@@ -42,6 +42,7 @@ std::vector<EmitterLight> GatherInParts::direct(std::span<const SurfacePoint> po
     for (std::uint32_t k = 0; k < points.size(); ++k) {
         const GatherSamples& own = samples[k];
         const bool alike = k > 0 && points[k].facet == points[k - 1].facet &&
+                           points[k].normal == points[k - 1].normal &&
                            own.first / shared_weights == samples[k - 1].first / shared_weights;
         if (!alike)
             emitters_.weigh(points[k], weighed);

@@ -274,9 +274,12 @@ void turn_faces(Scene& scene, const Orientation& orientation) {
             continue;
         const bool is_triangle = facet.is_triangle();
         turn(facet.vertex, is_triangle);
-        if (textures)
-            for (std::vector<Texcoords>& of_facets : textures->texcoords)
-                turn(of_facets[f], is_triangle);
+        if (!textures)
+            continue;
+        for (std::vector<Texcoords>& of_facets : textures->texcoords)
+            turn(of_facets[f], is_triangle);
+        if (!textures->tints.empty())
+            turn(textures->tints[f], is_triangle);
     }
 }
 

@@ -25,6 +25,30 @@ TextureAxes texture_axes(const SceneTextures& textures, const TextureMap& map, s
     return {first, Vec2{uv[b]} - first, Vec2{uv[c]} - first};
 }
 
+/// Returns the tint at a place of a half.
+Vec3 tint_at(const SceneTextures& textures, std::uint32_t facet, bool second_half,
+             const Vec2& place) {
+    const Tints& tint = textures.tints[facet];
+    const auto [b, c] = corners_of_half(second_half);
+    const Vec3 first(tint[0]);
+    return first + place.x * (Vec3(tint[b]) - first) + place.y * (Vec3(tint[c]) - first);
+}
+
+/// Returns the centre of mass of a polygon; the mean of its corners where it has no area.
+Vec2 centre_of(std::span<const Vec2> polygon) {
+    Vec2 sum(0.0), corners(0.0);
+    double area = 0;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        corners += polygon[k] / double(polygon.size());
+        if (k < 2)
+            continue;
+        const double twice = cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
+        sum += twice / 3 * (polygon[0] + polygon[k - 1] + polygon[k]);
+        area += twice;
+    }
+    return area != 0 ? sum / area : corners;
+}
+
 Vec3 mean_of(const SceneTextures& textures, const TextureMap& map, const Vec3& otherwise,
              std::uint32_t facet, bool second_half, std::span<const Vec2> places) {
     if (!map.texture)
@@ -67,14 +91,18 @@ double area_of(const std::vector<Vec2>& polygon) {
 
 } // namespace
 
+/// Where a tinted emission has a texture, too, the product of the two means stands for the mean of
+/// the product.
 Colours colours_over(const Scene& scene, std::uint32_t facet, bool second_half,
                      std::span<const Vec2> places) {
     const std::uint32_t number = scene.facets[facet].material;
     const Material& material = scene.materials[number];
     const SceneTextures& textures = textures_of(scene);
-    const auto& [reflectance, emission] = textures.of_material[number];
+    const auto& [reflectance, emission, tinted] = textures.of_material[number];
     return {mean_of(textures, reflectance, material.reflectance, facet, second_half, places),
-            mean_of(textures, emission, material.emission, facet, second_half, places)};
+            tinted ? mean_of(textures, emission, emission.factor, facet, second_half, places) *
+                         tint_at(textures, facet, second_half, centre_of(places))
+                   : mean_of(textures, emission, material.emission, facet, second_half, places)};
 }
 
 /// A quad's texture is linear on either half, so the part is cut along the diagonal.
@@ -132,8 +160,28 @@ Colours colours_at_point(const Scene& scene, std::uint32_t facet, const Polygon&
         return map.factor * map.texture->texel_at(
                                 map.place(first + place.x * along + place.y * across), map.wraps);
     };
-    const auto& [reflectance, emission] = textures.of_material[number];
-    return {colour(reflectance, material.reflectance), colour(emission, material.emission)};
+    const auto& [reflectance, emission, tinted] = textures.of_material[number];
+    return {colour(reflectance, material.reflectance),
+            tinted ? colour(emission, emission.factor) * tint_at(textures, facet, second, place)
+                   : colour(emission, material.emission)};
+}
+
+void set_tinted_means(Scene& scene) {
+    const SceneTextures& textures = textures_of(scene);
+    std::vector<Vec3> sums(scene.materials.size(), Vec3(0.0));
+    std::vector<double> areas(scene.materials.size());
+    for (std::uint32_t f = 0; f < scene.facets.size(); ++f) {
+        const std::uint32_t m = scene.facets[f].material;
+        if (!textures.is_tinted(m))
+            continue;
+        const Polygon shape = polygon_of(scene.vertices, scene.facets[f].vertex);
+        const double area = glm::length(shape.area_vector());
+        sums[m] += area * mean_colours(scene, f, shape, shape).emission;
+        areas[m] += area;
+    }
+    for (std::size_t m = 0; m < sums.size(); ++m)
+        if (areas[m] > 0)
+            scene.materials[m].emission = sums[m] / areas[m];
 }
 
 } // namespace hemilux

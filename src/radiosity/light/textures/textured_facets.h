@@ -24,4 +24,7 @@ namespace hemilux {
 [[nodiscard]] Colours colours_at_point(const Scene& scene, std::uint32_t facet,
                                        const Polygon& whole, const Vec3& point);
 
+/// Gives each tinted material the mean of its emission over its facets.
+void set_tinted_means(Scene& scene);
+
 } // namespace hemilux
