@@ -37,11 +37,36 @@ Vec3 read_colour(const JsonValue& owner, std::string_view key, std::array<double
     return {numbers[0], numbers[1], numbers[2]};
 }
 
+/// Returns the fourth component of the base colour.
+double alpha_of(const JsonValue& material) {
+    std::array<double, 4> colour{1, 1, 1, 1};
+    if (const auto metal = material.find("pbrMetallicRoughness"))
+        metal->numbers_of("baseColorFactor", colour);
+    else if (const auto diffuse = material.extension("KHR_materials_pbrSpecularGlossiness"))
+        diffuse->numbers_of("diffuseFactor", colour);
+    return colour[3];
+}
+
+/// Only what is no metal transmits; metallic has been read before.
+void read_transmission(const JsonValue& value, const Document& document, MaterialInfo& material) {
+    const std::string mode = value.text_or("alphaMode", "OPAQUE");
+    if (mode == "BLEND" && !material.base_texture)
+        material.uncovered = 1 - std::clamp(alpha_of(value), 0.0, 1.0);
+    else
+        material.is_cut_out = mode != "OPAQUE";
+    if (const auto transmission = value.extension("KHR_materials_transmission")) {
+        material.transmission =
+            std::clamp(transmission->number_or("transmissionFactor", 0), 0.0, 1.0) *
+            (1 - std::clamp(material.metallic, 0.0, 1.0));
+        material.transmission_texture =
+            read_texture(*transmission, "transmissionTexture", document);
+    }
+}
+
 MaterialInfo read_material(const JsonValue& value, const Document& document) {
     MaterialInfo material;
     material.name = value.text_or("name", "");
     material.double_sided = value.flag_or("doubleSided", false);
-    material.transparent = value.text_or("alphaMode", "OPAQUE") != "OPAQUE";
     if (const auto metal = value.find("pbrMetallicRoughness")) {
         material.base_colour = read_colour<4>(*metal, "baseColorFactor", {1, 1, 1, 1});
         material.metallic = metal->number_or("metallicFactor", 1);
@@ -61,8 +86,7 @@ MaterialInfo read_material(const JsonValue& value, const Document& document) {
             strength->at("emissiveStrength").fail("expected a number of at least 0");
         material.emissive *= factor;
     }
-    if (const auto transmission = value.extension("KHR_materials_transmission"))
-        material.transparent |= transmission->number_or("transmissionFactor", 0) > 0;
+    read_transmission(value, document, material);
     return material;
 }
 
