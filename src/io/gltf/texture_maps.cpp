@@ -69,7 +69,7 @@ double TextureMaps::mean_of_red(const TextureInfo& info) {
 std::shared_ptr<const Texture> TextureMaps::texture_of(const TextureInfo& info) {
     const Document& document = buffers_.document();
     const TextureSource& source = document.textures[info.texture];
-    const Index& image = source.image;
+    const Index image = source.image ? source.image : source.webp;
     if (image ? *image >= document.images.size() : !source.is_of_other_kind)
         throw InputError(buffers_.path(), "/textures/" + std::to_string(info.texture) +
                                               "/source: expected an image below " +

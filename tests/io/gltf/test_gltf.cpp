@@ -4,6 +4,7 @@
 
 #include "geometry/polygon.h"
 #include "io/gltf/gltf_text.h"
+#include "io/textures/webp.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
@@ -293,12 +294,22 @@ TEST_CASE("what a file uses and what is not read has a warning", "[gltf]") {
         file_of({0, 1, 2}, R"(,"indices":1)", one_node + R"(,"extensionsUsed":["X_bends_light"])"));
     CHECK(warns_of(unknown, "uses extensions that are not read: X_bends_light"));
 
-    const ReadResult webp = read(file_of(
-        {0, 1, 2}, R"(,"indices":1,"material":0)",
-        one_node + R"(,"extensionsRequired":["EXT_texture_webp"],"images":[{"uri":"a.webp"}],)"
-                   R"("textures":[{"extensions":{"EXT_texture_webp":{"source":0}}}],"materials":)"
-                   R"([{"pbrMetallicRoughness":{"metallicFactor":0,"baseColorFactor":)"
-                   R"([0.25,0.5,0.5,1],"baseColorTexture":{"index":0}}}])"));
-    CHECK(warns_of(webp, "a texture is not found, or neither PNG nor JPEG"));
-    CHECK(webp.scene.materials[0].reflectance == Vec3(.25, .5, .5));
+    const auto read_webp = [](const std::string& uri) {
+        return read(file_of(
+            {0, 1, 2}, R"(,"indices":1,"material":0)",
+            one_node + R"(,"extensionsRequired":["EXT_texture_webp"],"images":[{"uri":")" + uri +
+                R"("}],"textures":[{"extensions":{"EXT_texture_webp":{"source":0}}}],"materials":)"
+                R"([{"pbrMetallicRoughness":{"metallicFactor":0,"baseColorFactor":)"
+                R"([0.25,0.5,0.5,1],"baseColorTexture":{"index":0}}}])"));
+    };
+    const ReadResult missing = read_webp("a.webp");
+    CHECK(warns_of(missing, "a texture is not found, or neither PNG nor JPEG"));
+    CHECK(missing.scene.materials[0].reflectance == Vec3(.25, .5, .5));
+    // One texel is red, the other one blue.
+    const ReadResult found =
+        read_webp("data:image/webp;base64,UklGRh4AAABXRUJQVlA4TBEAAAAvAQAAAA8Q87//8x8OMqL/AQA=");
+    const bool readable = is_readable_webp("RIFF....WEBP");
+    CHECK(warns_of(found, "a texture is not found") != readable);
+    CHECK(found.scene.materials[0].reflectance ==
+          (readable ? Vec3(.125, 0, .25) : Vec3(.25, .5, .5)));
 }

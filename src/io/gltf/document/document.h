@@ -129,6 +129,7 @@ struct ImageInfo {
 enum class Wrapping : std::uint8_t { repeat, clamp, mirror };
 struct TextureSource {
     Index image;                   ///< none: of a kind that is not read, or missing
+    Index webp;                    ///< the same as WebP (EXT_texture_webp)
     bool is_of_other_kind = false; ///< the file has it as WebP, KTX2 or AVIF
     Wrapping wrap_s = Wrapping::repeat, wrap_t = Wrapping::repeat;
 };

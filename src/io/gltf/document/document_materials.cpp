@@ -108,6 +108,9 @@ void read_textures(const JsonValue& root, Document& document) {
         TextureSource& texture = document.textures.emplace_back();
         if (const auto source = value.find("source"))
             texture.image = source->whole(0, no_limit);
+        if (const auto webp = value.extension("EXT_texture_webp"))
+            if (const auto source = webp->find("source"))
+                texture.webp = source->whole(0, no_limit);
         for (const char* const kind :
              {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"})
             texture.is_of_other_kind |= value.extension(kind).has_value();
