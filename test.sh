@@ -18,7 +18,7 @@ usage() {
 }
 preset=dev
 slow=yes
-packages="catch2 libopenmpi-dev openmpi-bin"
+packages="catch2 libopenmpi-dev openmpi-bin libwebp-dev"
 # The Python module is tested where these are; they are not asked for where apt-get does not install them.
 python_packages="python3-dev pybind11-dev python3-numpy python3-scipy python3-pytest"
 [ $# -le 1 ] || { usage >&2; exit 1; }

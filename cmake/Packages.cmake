@@ -25,6 +25,13 @@ endif()
 # Pictures are compressed by zlib where it is found, else by stb, which takes longer.
 if(HEMILUX_IO)
   find_package(ZLIB QUIET)
+  # Textures in WebP files are read where libwebp is found, else warned of.
+  find_path(WEBP_INCLUDE_DIR webp/decode.h)
+  find_library(WEBP_LIBRARY webp)
+  mark_as_advanced(WEBP_INCLUDE_DIR WEBP_LIBRARY)
+  if(WEBP_INCLUDE_DIR AND WEBP_LIBRARY)
+    set(HEMILUX_WEBP ON)
+  endif()
 endif()
 if(HEMILUX_PROGRAM)
   find_package(CLI11 QUIET)

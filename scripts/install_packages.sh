@@ -17,6 +17,7 @@ brings() {
     libstb-dev) header stb/stb_image_write.h || header stb_image_write.h ;;
     libcli11-dev) header CLI/CLI.hpp ;;
     nlohmann-json3-dev) header nlohmann/json.hpp ;;
+    libwebp-dev) header webp/decode.h ;;
     libopenmpi-dev) command -v mpicxx ;;
     openmpi-bin) command -v mpirun ;;
     catch2) header catch2/catch.hpp || header catch2/catch_test_macros.hpp ;;

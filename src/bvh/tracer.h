@@ -74,6 +74,17 @@ class Tracer {
                                  std::span<std::uint8_t> out) const;
     /// Returns the full hit record of a ray that is known to hit `facet` first.
     [[nodiscard]] virtual Hit locate(const Ray& ray, std::uint32_t facet) const;
+    /// Returns the share of light [-] that comes along a ray which nothing occludes up to t_max. It
+    /// is less than 1 where something on the way dims light without being a facet.
+    [[nodiscard]] virtual double passed(const Ray&) const { return 1; }
+    /// Returns the same up to t.
+    [[nodiscard]] double passed_up_to(Ray ray, double t) const {
+        ray.t_max = t;
+        return passed(ray);
+    }
+    /// Returns a tracer whose rays end at facets alone. Whoever uses it has to multiply the light
+    /// along a ray by passed().
+    [[nodiscard]] virtual const Tracer& of_facets() const { return *this; }
 };
 
 } // namespace hemilux

@@ -141,6 +141,8 @@ bool may_include_system(const std::string& file, const std::string& header) {
     const std::string layer = layer_of(file);
     if (begins("glm/"))
         return true;
+    if (begins("webp/"))
+        return file == "io/textures/webp.cpp";
     if (begins("stb"))
         return layer == "io" && source;
     if (header == "nlohmann/json_fwd.hpp")

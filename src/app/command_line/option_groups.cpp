@@ -90,6 +90,10 @@ Option add_scene_options(Command command, SceneSettings& scene) {
         add_number(command, "--max-edge", "LENGTH", scene.mesh.max_edge, positive,
                    "divide faces until no edge is longer [not divided]");
     add_sides_options(command, scene);
+    add_choice(
+        command, "--glass", scene.glass, {{Glass::open, "open"}, {Glass::solid, "solid"}},
+        "what glass does: open: lets its share of light through and absorbs the rest; solid: "
+        "stays opaque, with a warning [solid]");
     command.add_action(
         "--no-textures", [&scene] { scene.textures = false; },
         "materials have the colours of the file without their textures");

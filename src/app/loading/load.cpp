@@ -15,6 +15,7 @@
 #include "io/files/error.h"
 #include "io/files/text_words.h"
 #include "io/gltf/gltf.h"
+#include "io/scene_files/glass.h"
 #include "io/scene_files/inspect.h"
 #include "io/scene_files/obj.h"
 #include "io/scene_files/stl.h"
@@ -104,13 +105,17 @@ ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
             files.read("photometry", light.photometry);
     apply_overrides(read.scene, &Material::emission, settings.emission);
     apply_overrides(read.scene, &Material::reflectance, settings.reflectance);
+    if (settings.glass == Glass::open)
+        open_glass(read);
     add_lights(read.scene, settings);
     return read;
 }
 
 void check_solvable(const ReadResult& read, const std::string& path) {
     if (read.scene.facets.empty())
-        throw InputError(path, "there is no face with an area");
+        throw InputError(path, read.scene.panes
+                                   ? "all faces are panes, which --glass open makes of glass"
+                                   : "there is no face with an area");
     check_reflectances(read, path);
     const std::vector<bool> used = materials_in_use(read.scene);
     bool emits =

@@ -26,6 +26,9 @@ namespace hemilux {
 /// The sides of faces that emit and reflect.
 enum class Sides { automatic, front, both };
 
+/// What becomes of materials that let light through.
+enum class Glass { solid, open };
+
 /// The scene, and the changes to it.
 struct SceneSettings {
     std::string path;
@@ -35,6 +38,7 @@ struct SceneSettings {
     std::vector<SunSettings> suns;
     std::optional<Vec3> sky; ///< its radiosity [W/m2]
     Sides sides = Sides::automatic;
+    Glass glass = Glass::solid;
     bool textures = true;                ///< they are read
     Outside outside = Outside::reported; ///< files that the scene names in other folders
     MeshOptions mesh;                    ///< two-sided with Sides::both

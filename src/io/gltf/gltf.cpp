@@ -5,6 +5,7 @@
 #include "io/gltf/lights.h"
 #include "io/gltf/scene_meshes.h"
 #include "io/scene_files/emitter_shapes.h"
+#include "io/scene_files/glass.h"
 #include "radiosity/light/sides/shells.h"
 #include "radiosity/light/textures/scene_textures.h"
 #include "radiosity/light/textures/textured_facets.h"
@@ -42,6 +43,8 @@ class Reader {
     void mark_two_sided();
     void add_camera(const Instance& instance);
     void add_lights();
+    [[nodiscard]] Vec3 transmittance_of(std::size_t material);
+    void find_glass();
     void collect_warnings(const MeshTally& meshes);
     void warn_of_unlit();
     void warn(std::size_t count, const std::string& one, const std::string& many);
@@ -208,6 +211,31 @@ void Reader::warn(std::size_t count, const std::string& one, const std::string& 
                                    (count == 1 ? one : std::to_string(count) + " " + many));
 }
 
+/// Returns what comes through a material [-]: all that alpha leaves open and, of the rest, the part
+/// that is transmitted, in the base colour. Textures count by their means.
+Vec3 Reader::transmittance_of(std::size_t material) {
+    const MaterialInfo& info = document_.materials[material];
+    if (info.is_cut_out)
+        return Vec3(0.0);
+    double transmission = info.transmission;
+    if (transmission > 0 && info.transmission_texture && textures_)
+        transmission *= maps_.mean_of_red(*info.transmission_texture);
+    const Vec3 base = glm::clamp(result_.scene.materials[material].reflectance, 0.0, 1.0);
+    return info.uncovered + (1 - info.uncovered) * transmission * base;
+}
+
+void Reader::find_glass() {
+    for (std::uint32_t m = 0; m < used_.size(); ++m) {
+        const Vec3 transmittance = used_[m] ? transmittance_of(m) : Vec3(0.0);
+        if (transmittance != Vec3(0.0))
+            result_.glass.push_back({m, transmittance,
+                                     document_.materials[m].transmission > 0
+                                         ? "KHR_materials_transmission"
+                                         : "alphaMode BLEND"});
+    }
+    warn_of_solid_glass(result_);
+}
+
 /// Names the materials whose colours are light already.
 void Reader::warn_of_unlit() {
     constexpr std::size_t max_names = 4;
@@ -228,15 +256,16 @@ void Reader::warn_of_unlit() {
 
 void Reader::collect_warnings(const MeshTally& meshes) {
     warn_of_unlit();
-    std::size_t metals = 0, transparent = 0;
+    std::size_t metals = 0, cut_out = 0;
     for (std::size_t m = 0; m < used_.size(); ++m) {
         metals += used_[m] && document_.materials[m].metallic > metal;
-        transparent += used_[m] && document_.materials[m].transparent;
+        cut_out += used_[m] && document_.materials[m].is_cut_out;
     }
     warn(metals, "a material is a metal; it reflects diffusely here, by its base colour",
          "materials are metals; they reflect diffusely here, by their base colours");
-    warn(transparent, "a material is transparent; it is opaque here",
-         "materials are transparent; they are opaque here");
+    warn(cut_out, "a material lets light through by a texture; it is opaque here",
+         "materials let light through by textures; they are opaque here");
+    find_glass();
     warn(result_.degenerate_faces, "a triangle without area is left out",
          "triangles without area are left out");
     warn(maps_.missing(),

@@ -7,6 +7,7 @@
 #include "radiosity/light/textures/scene_textures.h"
 
 #include <algorithm>
+#include <array>
 
 namespace hemilux::gltf {
 
@@ -23,28 +24,17 @@ void TextureMaps::read(std::size_t material, Scene& scene) {
 /// Adds a texture with the transform of KHR_texture_transform: scale, then rotation, then offset.
 void TextureMaps::add(const TextureInfo& info, std::size_t material, Vec3 Material::*colour,
                       TextureMap MaterialTextures::*map, Scene& scene) {
-    const Document& document = buffers_.document();
-    const TextureSource& source = document.textures[info.texture];
-    if (!source.image && source.is_of_other_kind) {
-        ++missing_;
+    std::shared_ptr<const Texture> texture = texture_of(info);
+    if (!texture)
         return;
-    }
-    if (!source.image || *source.image >= document.images.size())
-        throw InputError(buffers_.path(), "/textures/" + std::to_string(info.texture) +
-                                              "/source: expected an image below " +
-                                              std::to_string(document.images.size()));
-    std::shared_ptr<const Texture> texture = read_image(*source.image);
-    if (!texture) {
-        ++missing_;
-        return;
-    }
+    const TextureSource& source = buffers_.document().textures[info.texture];
     const auto wrap_of = [](Wrapping wrapping) {
         return wrapping == Wrapping::clamp    ? Wrap::clamp
                : wrapping == Wrapping::mirror ? Wrap::mirror
                                               : Wrap::repeat;
     };
     SceneTextures& textures = own_textures_of(scene);
-    textures.of_material.resize(document.materials.size());
+    textures.of_material.resize(buffers_.document().materials.size());
     TextureMap& to = textures.of_material[material].*map;
     to.texture = std::move(texture);
     to.wraps = {wrap_of(source.wrap_s), wrap_of(source.wrap_t)};
@@ -57,6 +47,38 @@ void TextureMaps::add(const TextureInfo& info, std::size_t material, Vec3 Materi
     to.factor = of_material;
     of_material *= to.texture->mean();
     sets_ = std::max(sets_, info.set + 1);
+}
+
+double TextureMaps::mean_of_red(const TextureInfo& info) {
+    const std::shared_ptr<const Texture> texture = texture_of(info);
+    if (!texture)
+        return 1;
+    const std::array<double, 256>& linear = srgb_to_linear();
+    double sum = 0;
+    for (std::uint32_t y = 0; y < texture->height(); ++y)
+        for (std::uint32_t x = 0; x < texture->width(); ++x) {
+            const Vec2 place((x + .5) / texture->width(), (y + .5) / texture->height());
+            const double light = texture->texel_at(place, {}).r;
+            sum += static_cast<double>(std::ranges::lower_bound(linear, light) - linear.begin());
+        }
+    constexpr double white = 255;
+    return sum / (white * texture->width() * texture->height());
+}
+
+/// Returns a texture; empty, and counted, where it is missing or of a kind that is not read.
+std::shared_ptr<const Texture> TextureMaps::texture_of(const TextureInfo& info) {
+    const Document& document = buffers_.document();
+    const TextureSource& source = document.textures[info.texture];
+    const Index image = source.image ? source.image : source.webp;
+    if (image ? *image >= document.images.size() : !source.is_of_other_kind)
+        throw InputError(buffers_.path(), "/textures/" + std::to_string(info.texture) +
+                                              "/source: expected an image below " +
+                                              std::to_string(document.images.size()));
+    std::shared_ptr<const Texture> texture;
+    if (image)
+        texture = read_image(*image);
+    missing_ += texture ? 0 : 1;
+    return texture;
 }
 
 /// Returns the image; empty where it is missing or of a kind that is not read.

@@ -20,6 +20,10 @@ class TextureMaps {
     /// Its colours become their means. Throws InputError.
     void read(std::size_t material, Scene& scene);
 
+    /// Returns the mean of the red bytes of a texture over 255, as it holds numbers and no colours;
+    /// 1 where it is missing. Throws InputError.
+    [[nodiscard]] double mean_of_red(const TextureInfo& info);
+
     /// Returns the number of sets of texture coordinates: textures use those before it.
     [[nodiscard]] std::size_t sets() const { return sets_; }
     /// Returns how many textures are not found, or of a kind that is not read.
@@ -30,6 +34,7 @@ class TextureMaps {
   private:
     void add(const TextureInfo& info, std::size_t material, Vec3 Material::*colour,
              TextureMap MaterialTextures::*map, Scene& scene);
+    [[nodiscard]] std::shared_ptr<const Texture> texture_of(const TextureInfo& info);
     [[nodiscard]] std::shared_ptr<const Texture> read_image(std::size_t image);
 
     Buffers& buffers_;

@@ -25,13 +25,17 @@ constexpr std::size_t parts_of_picture = 64;
 
 using Place = JudgedPixel::Place;
 
+/// Returns what a ray shows, in the colours that panes on the way leave of it.
 std::optional<Place> place_at(const Mesh& mesh, const Tracer& tracer, const Ray& ray) {
-    const std::optional<Visible> visible = look(mesh, tracer, ray);
+    const std::optional<Visible> visible = look(mesh, tracer.of_facets(), ray);
     if (!visible)
         return std::nullopt;
     const Patch& patch = mesh.patches()[visible->patch];
     const Vec3 point = ray.origin + visible->hit.t * ray.direction;
-    return Place{{point, patch.normal, patch.facet}, colours_at(mesh, patch, point)};
+    const Colours colours = colours_at(mesh, patch, point);
+    const double passed = tracer.passed_up_to(ray, visible->hit.t);
+    return Place{{point, patch.normal, patch.facet},
+                 {passed * colours.reflectance, passed * colours.emission}};
 }
 
 /// Returns the places of a pixel, if it shows one side of one facet.

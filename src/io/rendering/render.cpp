@@ -8,6 +8,7 @@
 #include "io/rendering/visible_facets.h"
 #include "io/results/smooth.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/rays/panes.h"
 #include "radiosity/light/cached_light/surface_light.h"
 #include "radiosity/light/textures/scene_textures.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -121,6 +122,31 @@ Image shaded_picture(const VisibleFacets& visible, const Shading& shading,
     return image;
 }
 
+/// Multiplies each pixel by what the panes before its surfaces let through, in the mean over its
+/// samples.
+void dim_behind_panes(Image& image, const VisibleFacets& visible, const Tracer& tracer,
+                      const RenderOptions& options, const std::function<void()>& check) {
+    const auto passed = [&](const VisibleFacets::Band& band, int x, int y) {
+        double sum = 0;
+        unsigned samples = 0;
+        visible.visit_pixel(
+            band, x, y, true, [&](std::uint32_t half, const Vec2& place, unsigned, unsigned count) {
+                const Vec3 way = visible.direction(place);
+                sum += count * tracer.passed({.origin = visible.eye(),
+                                              .direction = way,
+                                              .t_max = visible.hit_at(half, way).t});
+                samples += count;
+            });
+        return samples > 0 ? sum / samples : 1;
+    };
+    visible.for_each_band(Workers(options.threads), check,
+                          [&](const VisibleFacets::Band& band, int first, int end) {
+                              for (int y = first; y < end; ++y)
+                                  for (int x = 0; x < options.width; ++x)
+                                      image.at(x, y) *= static_cast<float>(passed(band, x, y));
+                          });
+}
+
 } // namespace
 
 Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
@@ -136,8 +162,14 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
         if (options.give_up && options.give_up())
             throw Interrupted();
     };
+    const auto behind_panes = [&](Image image) {
+        if (!panes_of(mesh.scene()).empty())
+            dim_behind_panes(image, visible, tracer, options, check);
+        return image;
+    };
     if (options.gather == 0)
-        return shaded_picture(visible, Shading(mesh, radiosity, options), options, check);
+        return behind_panes(
+            shaded_picture(visible, Shading(mesh, radiosity, options), options, check));
     const auto samples = static_cast<unsigned>(options.samples);
     const PictureGather gather(
         mesh, tracer, SurfaceLight(mesh, PatchLight(radiosity, options.slope), options.cells), rays,
@@ -147,8 +179,8 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
          .gathers_coarse = options.gathers_coarse,
          .check = check},
         Workers(options.threads));
-    return gathered_picture(mesh, visible, gather, offsets, options.width, options.height, check,
-                            Workers(options.threads));
+    return behind_panes(gathered_picture(mesh, visible, gather, offsets, options.width,
+                                         options.height, check, Workers(options.threads)));
 }
 
 double exposure_of(const Image& picture, const Mesh& mesh, const Tracer& tracer,

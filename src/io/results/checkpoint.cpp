@@ -4,6 +4,7 @@
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "radiosity/engine/rays/candela_table.h"
+#include "radiosity/engine/rays/panes.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -147,6 +148,11 @@ std::uint64_t scene_hash(const Mesh& mesh) {
         out.add(emitter.side);
         for (const std::span<const double> numbers : emitter.table->numbers())
             out.add(numbers);
+    }
+    for (const Pane& pane : panes_of(mesh.scene())) {
+        for (const Vec3& corner : pane.corner)
+            out.add(corner);
+        out.add(pane.transmittance);
     }
     flush();
     for (const Patch& patch : mesh.patches()) {

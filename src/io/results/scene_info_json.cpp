@@ -51,6 +51,15 @@ Json to_list(const std::vector<PointInfo>& points) {
     return list;
 }
 
+Json to_list(const std::vector<GlassInfo>& all) {
+    Json list = Json::array();
+    for (const GlassInfo& glass : all)
+        list.push_back({{"material", glass.name},
+                        {"transmittance", vector(glass.transmittance)},
+                        {"open", glass.open}});
+    return list;
+}
+
 Json to_object(const SceneReport& report) {
     const SceneInfo& info = report.info;
     return {
@@ -69,6 +78,7 @@ Json to_object(const SceneReport& report) {
         {"emitting_materials", names_of(info.emitters)},
         {"emitters", to_list(info.emitters)},
         {"lights_without_extent", to_list(info.points)},
+        {"glass", to_list(info.glass)},
         {"faces_without_area", info.degenerate_faces},
         {"faces_not_planar", info.nonplanar_faces},
         {"faces_concave", info.concave_faces},

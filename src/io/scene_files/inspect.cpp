@@ -102,6 +102,20 @@ std::string describe_points(const std::vector<PointInfo>& points) {
     return text;
 }
 
+/// Returns a line for each of the first materials that let light through.
+std::string describe_glass(const std::vector<GlassInfo>& all) {
+    constexpr std::size_t most = 8;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(all.size(), most); ++k)
+        text +=
+            info_line(k == 0 ? "glass" : "",
+                      all[k].name + ": lets " + text_of_colour(all[k].transmittance) +
+                          " of the light through" + (all[k].open ? "" : ", but is opaque here"));
+    if (all.size() > most)
+        text += info_line("", "and " + std::to_string(all.size() - most) + " more");
+    return text;
+}
+
 /// Returns a line for each of the first emitters.
 std::string describe_emitters(const std::vector<EmitterInfo>& emitters) {
     constexpr std::size_t most = 8;
@@ -147,6 +161,9 @@ SceneInfo inspect(const ReadResult& read) {
                                power});
         info.emitted_power += power;
     }
+    for (const GlassMaterial& glass : read.glass)
+        info.glass.push_back(
+            {scene.materials[glass.material].name, glass.transmittance, glass.open});
     const EdgeCounts edges = count_edges(scene);
     info.open_edges = edges.open;
     info.nonmanifold_edges = edges.nonmanifold;
@@ -194,6 +211,7 @@ std::string describe(const SceneInfo& info) {
     text += info_line("emitted power", text_of(info.emitted_power) + " (red, green, blue)");
     text += describe_emitters(info.emitters);
     text += describe_points(info.points);
+    text += describe_glass(info.glass);
     add_doubt(text, "without area", info.degenerate_faces, "face", "left out");
     add_doubt(text, "not planar", info.nonplanar_faces, "face", "divided into triangles");
     add_doubt(text, "concave", info.concave_faces, "face", "divided into triangles");

@@ -28,6 +28,13 @@ struct PointInfo {
     Vec3 power;       ///< [W]
 };
 
+/// A material that lets light through.
+struct GlassInfo {
+    std::string name;
+    Vec3 transmittance{0.0}; ///< [-], of light that crosses a face of it once
+    bool open = false;       ///< else it is opaque here
+};
+
 struct SceneInfo {
     std::size_t faces = 0;                            ///< faces in the file
     std::size_t facets = 0, triangles = 0, quads = 0; ///< made of them
@@ -45,6 +52,7 @@ struct SceneInfo {
 
     std::vector<EmitterInfo> emitters;
     std::vector<PointInfo> points;
+    std::vector<GlassInfo> glass;
     std::vector<std::string> bad_reflectances;
 };
 

@@ -2,6 +2,7 @@
 
 #include "io/files/input_file.h"
 #include "io/files/text_words.h"
+#include "io/scene_files/glass.h"
 #include "radiosity/light/textures/scene_textures.h"
 
 #include <algorithm>
@@ -136,6 +137,7 @@ void MaterialTable::define(const std::string& file, const MtlMaterial& material)
 
 void MaterialTable::finish() {
     warn_of_undefined();
+    find_glass();
     warn_of_surfaces();
     if (!read_textures_)
         return;
@@ -209,6 +211,18 @@ void MaterialTable::warn_of_undefined() {
                                    "): reflectance 0.5, no emission");
 }
 
+/// A material with holes is no glass: what of it lets light through is not known.
+void MaterialTable::find_glass() {
+    for (std::uint32_t m = 0; m < entries_.size(); ++m) {
+        const std::optional<MtlMaterial>& of = entries_[m].definition;
+        if (!entries_[m].used || !of || !of->cut_out.empty())
+            continue;
+        if (const Vec3 transmittance = of->transmittance(); transmittance != Vec3(0.0))
+            result_.glass.push_back({m, transmittance, of->transparent});
+    }
+    warn_of_solid_glass(result_);
+}
+
 /// Warns of materials in use that do not send light as the file says.
 void MaterialTable::warn_of_surfaces() {
     const auto warn = [&](const auto& statement_of, const std::string& one,
@@ -230,9 +244,9 @@ void MaterialTable::warn_of_surfaces() {
                 where + (names.size() == 1 ? one : std::to_string(names.size()) + " " + many) +
                 " (" + list_names(names, 4) + ")");
     };
-    warn([](const MtlMaterial& of) { return of.transparent; },
-         "a material lets light through; it is opaque here",
-         "materials let light through; they are opaque here");
+    warn([](const MtlMaterial& of) { return of.cut_out; },
+         "a material has holes by a texture; it is whole here",
+         "materials have holes by textures; they are whole here");
     warn([](const MtlMaterial& of) { return of.mirror; },
          "a material is a mirror or a metal; it reflects diffusely here, by Kd",
          "materials are mirrors or metals; they reflect diffusely here, by Kd");

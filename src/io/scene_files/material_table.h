@@ -57,6 +57,7 @@ class MaterialTable {
     void read_library(const std::string& file, const std::string& where);
     void define(const std::string& file, const MtlMaterial& material);
     void warn_of_undefined();
+    void find_glass();
     void warn_of_surfaces();
     void add_texture(std::size_t material, const std::optional<MtlTexture>& texture,
                      Vec3 Material::*colour, TextureMap MaterialTextures::*map,

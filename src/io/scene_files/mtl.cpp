@@ -13,6 +13,9 @@
 namespace hemilux {
 namespace {
 
+/// From this opacity on a surface lets no light through.
+constexpr double opaque = .999;
+
 /// Reads three numbers, or one for all channels.
 Vec3 read_colour(const std::string& path, const Statement& statement) {
     const std::string expected =
@@ -40,6 +43,14 @@ bool is_other_colour(const Statement& statement) {
     return word == "xyz" || word == "spectral";
 }
 
+/// Reads three numbers, or one for all channels; what is no number is as the first.
+Vec3 read_filter(std::string_view rest) {
+    Vec3 filter(parse_decimal(take_word(rest)).value_or(1));
+    for (const int channel : {1, 2})
+        filter[channel] = parse_decimal(take_word(rest)).value_or(filter.r);
+    return filter;
+}
+
 /// Adds to the material whether the surface is one that is not diffuse here.
 void read_surface(const Statement& statement, MtlMaterial& material) {
     const std::string_view keyword = statement.keyword;
@@ -48,7 +59,7 @@ void read_surface(const Statement& statement, MtlMaterial& material) {
     const std::optional<double> number = parse_decimal(word);
     const std::string text = std::string(keyword) + " " + std::string(word);
     if (keyword == "map_d") {
-        material.transparent = "map_d";
+        material.cut_out = "map_d";
     } else if (!number) {
         return;
     } else if (keyword == "illum") {
@@ -58,13 +69,15 @@ void read_surface(const Statement& statement, MtlMaterial& material) {
             material.transparent = text;
         else if (kind == 3 || kind == 5)
             material.mirror = text;
+    } else if (keyword == "Tf") {
+        material.filter = read_filter(statement.rest);
     } else if (keyword == "d" || (keyword == "Tr" && !material.has_opacity)) {
-        constexpr double opaque = .999;
         // Exporters disagree on what Tr means, so d says it alone where there is one.
         if (keyword == "d" && !std::exchange(material.has_opacity, true) &&
             material.transparent.starts_with("Tr"))
             material.transparent.clear();
-        if ((keyword == "d" ? *number : 1 - *number) < opaque)
+        material.opacity = keyword == "d" ? *number : 1 - *number;
+        if (material.opacity < opaque)
             material.transparent = text;
     } else if (keyword == "Pm") {
         constexpr double metal = .5;
@@ -164,6 +177,13 @@ std::optional<MtlTexture> read_texture(std::string_view rest) {
 }
 
 } // namespace
+
+Vec3 MtlMaterial::transmittance() const {
+    if (transparent.empty())
+        return Vec3(0.0);
+    const bool is_clear = transparent.starts_with("illum") && !(opacity < opaque);
+    return glm::clamp(filter * (is_clear ? 1 : 1 - opacity), 0.0, 1.0);
+}
 
 MtlFile read_mtl(const std::string& path) {
     TextReader reader(read_text_file(path, InputKind::regular));

@@ -27,10 +27,17 @@ struct MtlMaterial {
     std::optional<Vec3> reflectance; ///< Kd, each channel >= 0 and possibly 1 or more
     std::optional<Vec3> emission;    ///< Ke, each channel >= 0 [W/m2]
     std::optional<MtlTexture> reflectance_map, emission_map; ///< map_Kd, map_Ke
-    /// The statement by which the surface lets light through (d, Tr, map_d, illum 6 and 7), and
-    /// that by which it is a mirror or a metal (illum 3 and 5, Pm); empty: there is none.
-    std::string transparent, mirror;
+    /// The statement by which the surface lets light through (d, Tr, illum 6 and 7), that by which
+    /// it has holes (map_d), and that by which it is a mirror or a metal (illum 3 and 5, Pm);
+    /// empty: there is none.
+    std::string transparent, cut_out, mirror;
     bool has_opacity = false; ///< by d
+    double opacity = 1;       ///< d, or 1 - Tr where there is no d [-]
+    Vec3 filter{1.0};         ///< Tf [-]
+
+    /// Returns the share of light that comes through, within [0,1]: the filter times what is not
+    /// opaque. By illum 6 or 7 all else is clear where there is no d or Tr below 1.
+    [[nodiscard]] Vec3 transmittance() const;
 };
 
 struct MtlFile {

@@ -22,9 +22,19 @@ struct PrimitiveOrigin {
     std::optional<std::size_t> instance = {}; ///< its number by EXT_mesh_gpu_instancing
 };
 
+/// A material in use that lets light through.
+struct GlassMaterial {
+    std::uint32_t material;
+    Vec3 transmittance;  ///< [-], of light that crosses a face of it once
+    std::string said_by; ///< what the file says
+    bool open = false;   ///< its faces are panes of the scene (glass.h)
+};
+
 struct ReadResult {
     Scene scene;
     std::vector<std::string> warnings;        ///< "file: ..." or "file:line: ..."
+    std::vector<GlassMaterial> glass;         ///< in the order of materials
+    std::string glass_warning;                ///< the one about glass among these; empty: none
     std::vector<std::string> material_source; ///< "file:line" of each material; "" if from no file
     std::vector<std::string> libraries;       ///< paths of further files that were read
     std::vector<std::string> textures;        ///< paths that are named

@@ -4,6 +4,7 @@
 #include "io/files/input_file.h"
 #include "io/files/text_words.h"
 #include "io/textures/picture_checks.h"
+#include "io/textures/webp.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -59,9 +60,12 @@ Size size_of(std::string_view bytes, const std::string& place) {
     check_picture(bytes, place);
     Size size;
     int channels = 0;
-    if (bytes.size() > std::numeric_limits<int>::max() ||
-        stbi_info_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &size.width,
-                              &size.height, &channels) == 0)
+    if (is_readable_webp(bytes)) {
+        const WebpSize stated = webp_size(bytes, place);
+        size = {stated.width, stated.height};
+    } else if (bytes.size() > std::numeric_limits<int>::max() ||
+               stbi_info_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &size.width,
+                                     &size.height, &channels) == 0)
         throw InputError(place,
                          "expected a PNG, JPEG or TGA picture of at most 16384 x 16384 pixels, "
                          "its header is broken");
@@ -72,9 +76,10 @@ Size size_of(std::string_view bytes, const std::string& place) {
     return size;
 }
 
-/// Returns whether the bytes begin like a PNG or a JPEG file.
+/// Returns whether the bytes begin like a PNG, a JPEG or, if these are read, a WebP file.
 bool is_picture_file(std::string_view bytes) {
-    return bytes.starts_with(png_signature) || bytes.starts_with("\xff\xd8\xff");
+    return bytes.starts_with(png_signature) || bytes.starts_with("\xff\xd8\xff") ||
+           is_readable_webp(bytes);
 }
 
 /// Returns whether the bytes begin with a header of a picture, as far as stb_image knows it.
@@ -90,6 +95,11 @@ bool has_header(std::string_view bytes) {
 
 Texture decode_texture(std::string_view bytes, const std::string& place) {
     Size size = size_of(bytes, place);
+    const auto width = static_cast<std::uint32_t>(size.width),
+               height = static_cast<std::uint32_t>(size.height);
+    if (is_readable_webp(bytes))
+        return {width, height, decode_webp(bytes, {size.width, size.height}, place),
+                srgb_to_linear()};
     int channels = 0;
     constexpr int rgb = 3;
     // A picture takes eight bytes a texel at the most, and one a row; buffers grow by doubling.
@@ -106,8 +116,6 @@ Texture decode_texture(std::string_view bytes, const std::string& place) {
             "expected a whole PNG, JPEG or TGA picture: " +
                 (reason == "outofmem" ? "its data unpack to more than its pixels take" : reason));
     }
-    const auto width = static_cast<std::uint32_t>(size.width),
-               height = static_cast<std::uint32_t>(size.height);
     const std::size_t count = std::size_t{rgb} * width * height;
     return {width, height, std::vector<std::uint8_t>(pixels.get(), pixels.get() + count),
             srgb_to_linear()};
@@ -142,7 +150,8 @@ std::shared_ptr<const Texture> TextureFiles::read(const std::string& path) {
     if (!is_input(path, InputKind::regular))
         return known_[path] = nullptr;
     const bool is_tga = small_letters(path).ends_with(".tga");
-    if (!is_tga && !is_picture_file(read_input(path, InputKind::regular, {}, png_signature.size())))
+    constexpr std::size_t signature = 12; // of the longest kind
+    if (!is_tga && !is_picture_file(read_input(path, InputKind::regular, {}, signature)))
         return known_[path] = nullptr;
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);

@@ -1,5 +1,6 @@
 #pragma once
-// Textures from PNG, JPEG and TGA files, each read once. Their bytes are colours by the sRGB curve.
+// Textures from PNG, JPEG and TGA files, and WebP where hemilux was built with libwebp (webp.h),
+// each read once. Their bytes are colours by the sRGB curve.
 
 #include "radiosity/light/textures/texture.h"
 

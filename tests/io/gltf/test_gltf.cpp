@@ -4,6 +4,7 @@
 
 #include "geometry/polygon.h"
 #include "io/gltf/gltf_text.h"
+#include "io/textures/webp.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/textures/textured_facets.h"
 #include "support/catch.h"
@@ -142,7 +143,7 @@ TEST_CASE("materials: base colour, emission, and what is not diffuse", "[gltf]")
     const ReadResult result = read(file_of(
         {0, 1, 2}, R"(,"indices":1,"material":1)",
         one_node + R"(,"materials":[{"name":"unused"},{"name":"lamp","alphaMode":"BLEND",)"
-                   R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,0,1]},)"
+                   R"("pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,0,0.25]},)"
                    R"("emissiveFactor":[1,0.5,0],)"
                    R"("extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4}}}])"));
     const Material& lamp = result.scene.materials.at(1);
@@ -151,7 +152,7 @@ TEST_CASE("materials: base colour, emission, and what is not diffuse", "[gltf]")
     CHECK(lamp.emission.x == Approx(4 * std::numbers::pi));
     CHECK(lamp.emission.y == Approx(2 * std::numbers::pi));
     CHECK(warns_of(result, "a material is a metal"));
-    CHECK(warns_of(result, "a material is transparent"));
+    CHECK(warns_of(result, "a material lets light through; it is opaque here"));
     CHECK(result.material_source.at(1).ends_with("s.gltf: /materials/1"));
 }
 
@@ -199,6 +200,35 @@ TEST_CASE("unlit materials emit what they show, colours of vertices included", "
     CHECK(lit.scene.materials.at(0).emission == Vec3(0.0));
     CHECK(warns_of(lit, "colours of vertices, which are not read"));
     CHECK_FALSE(lit.scene.colours_vary_on(0));
+}
+
+TEST_CASE("glass lets through what alpha does not cover, and what is transmitted", "[gltf]") {
+    const auto read_with = [](const std::string& material) {
+        return read(file_of({0, 1, 2}, R"(,"indices":1,"material":0)",
+                            one_node + R"(,"materials":[{)" + material + "}]"));
+    };
+    const auto through = [&](const std::string& material) {
+        const ReadResult result = read_with(material);
+        return result.glass.empty() ? Vec3(0) : result.glass.at(0).transmittance;
+    };
+    const std::string quarter =
+        R"("pbrMetallicRoughness":{"metallicFactor":0,"baseColorFactor":[0.5,1,0,0.25]})";
+    const std::string half =
+        R"("extensions":{"KHR_materials_transmission":{"transmissionFactor":0.5}})";
+    CHECK(through(quarter) == Vec3(0));
+    CHECK(through(R"("alphaMode":"OPAQUE",)" + quarter) == Vec3(0));
+    CHECK(through(R"("alphaMode":"BLEND",)" + quarter) == Vec3(.75));
+    CHECK(through(half) == Vec3(0)); // a metal, where the file does not say otherwise
+    CHECK(through(half + R"(,"pbrMetallicRoughness":{"metallicFactor":0.5})") == Vec3(.25));
+    CHECK(through(half + "," + quarter) == Vec3(.25, .5, 0));
+    CHECK(through(R"("alphaMode":"BLEND",)" + half + "," + quarter) ==
+          Vec3(.8125, .875, .75)); // the rest by half, in the base colour
+    CHECK(through(R"("alphaMode":"BLEND")") == Vec3(0));
+    CHECK_FALSE(warns_of(read_with(R"("alphaMode":"BLEND")"), "light through"));
+
+    const ReadResult mask = read_with(R"("alphaMode":"MASK",)" + half);
+    CHECK(mask.glass.empty());
+    CHECK(warns_of(mask, "a material lets light through by a texture; it is opaque here"));
 }
 
 TEST_CASE("buffers lie in the file, beside it, or in the binary chunk", "[gltf]") {
@@ -311,12 +341,22 @@ TEST_CASE("what a file uses and what is not read has a warning", "[gltf]") {
         file_of({0, 1, 2}, R"(,"indices":1)", one_node + R"(,"extensionsUsed":["X_bends_light"])"));
     CHECK(warns_of(unknown, "uses extensions that are not read: X_bends_light"));
 
-    const ReadResult webp = read(file_of(
-        {0, 1, 2}, R"(,"indices":1,"material":0)",
-        one_node + R"(,"extensionsRequired":["EXT_texture_webp"],"images":[{"uri":"a.webp"}],)"
-                   R"("textures":[{"extensions":{"EXT_texture_webp":{"source":0}}}],"materials":)"
-                   R"([{"pbrMetallicRoughness":{"metallicFactor":0,"baseColorFactor":)"
-                   R"([0.25,0.5,0.5,1],"baseColorTexture":{"index":0}}}])"));
-    CHECK(warns_of(webp, "a texture is not found, or neither PNG nor JPEG"));
-    CHECK(webp.scene.materials[0].reflectance == Vec3(.25, .5, .5));
+    const auto read_webp = [](const std::string& uri) {
+        return read(file_of(
+            {0, 1, 2}, R"(,"indices":1,"material":0)",
+            one_node + R"(,"extensionsRequired":["EXT_texture_webp"],"images":[{"uri":")" + uri +
+                R"("}],"textures":[{"extensions":{"EXT_texture_webp":{"source":0}}}],"materials":)"
+                R"([{"pbrMetallicRoughness":{"metallicFactor":0,"baseColorFactor":)"
+                R"([0.25,0.5,0.5,1],"baseColorTexture":{"index":0}}}])"));
+    };
+    const ReadResult missing = read_webp("a.webp");
+    CHECK(warns_of(missing, "a texture is not found, or neither PNG nor JPEG"));
+    CHECK(missing.scene.materials[0].reflectance == Vec3(.25, .5, .5));
+    // One texel is red, the other one blue.
+    const ReadResult found =
+        read_webp("data:image/webp;base64,UklGRh4AAABXRUJQVlA4TBEAAAAvAQAAAA8Q87//8x8OMqL/AQA=");
+    const bool readable = is_readable_webp("RIFF....WEBP");
+    CHECK(warns_of(found, "a texture is not found") != readable);
+    CHECK(found.scene.materials[0].reflectance ==
+          (readable ? Vec3(.125, 0, .25) : Vec3(.25, .5, .5)));
 }

@@ -1,12 +1,15 @@
 #include "bvh/wide/wide_bvh.h"
 #include "io/rendering/render.h"
 #include "io/results/smooth.h"
+#include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/engine/rays/panes.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 using namespace hemilux;
@@ -103,4 +106,19 @@ TEST_CASE("a picture without pixels or samples is refused") {
     for (const RenderOptions& options :
          {RenderOptions{.width = 0}, RenderOptions{.height = -3}, RenderOptions{.samples = 0}})
         CHECK_THROWS_AS(render(mesh, bvh, b, square_camera, options), std::invalid_argument);
+}
+
+TEST_CASE("what lies behind a pane is dimmed by it") {
+    Scene scene = wall(2).scene();
+    const Pane left{{Vec3(-1, -1, .5), Vec3(.5, -1, .5), Vec3(.5, 2, .5), Vec3(-1, 2, .5)}, .7};
+    const Pane behind{{Vec3(0, 0, -1), Vec3(1, 0, -1), Vec3(1, 1, -1), Vec3(0, 1, -1)}, 0};
+    scene.panes = std::make_shared<const std::vector<Pane>>(std::vector<Pane>{left, behind});
+    const Mesh mesh(std::move(scene));
+    const MadeTracer made = make_tracer(mesh, false, 1);
+    const std::vector<Vec3> b(4, {1, 2, 3});
+    const Image image =
+        render(mesh, *made.tracer, b, square_camera, {.width = 4, .height = 4, .samples = 4});
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x)
+            CHECK(image.at(x, y).y == Approx(x < 2 ? 1.4 : 2));
 }

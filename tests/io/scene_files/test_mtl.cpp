@@ -103,12 +103,30 @@ TEST_CASE("what a surface is besides diffuse is kept by its statement", "[mtl]")
     CHECK(of("Tr 0.3\n").transparent == "Tr 0.3");
     CHECK(of("d 1\nTr 1\n").transparent.empty()); // exporters disagree on Tr
     CHECK(of("Tr 1\nd 1\n").transparent.empty());
-    CHECK(of("map_d leaf.png\n").transparent == "map_d");
+    CHECK(of("map_d leaf.png\n").cut_out == "map_d");
+    CHECK(of("map_d leaf.png\n").transparent.empty());
     CHECK(of("illum 7\n").transparent == "illum 7");
     CHECK(of("illum 4\nTf 1 1 1\n").transparent.empty());
     CHECK(of("illum 3\n").mirror == "illum 3");
     CHECK(of("Pm 0.9\n").mirror == "Pm 0.9");
     CHECK(of("Pm 0.1\nNs 5\nillum 2\nd 1\n").mirror.empty());
+}
+
+TEST_CASE("what comes through glass follows from d, Tr, Tf and illum", "[mtl]") {
+    const auto of = [](const std::string& statements) {
+        return read("newmtl a\n" + statements).at(0).transmittance();
+    };
+    CHECK(of("Kd 1 1 1\n") == Vec3(0));
+    CHECK(of("d 0.25\nillum 4\n") == Vec3(.75));
+    CHECK(of("Tr 0.25\n") == Vec3(.25));
+    CHECK(of("Tr 0.25\nd 0.5\n") == Vec3(.5));
+    CHECK(of("Tf .2 .4 .6\n") == Vec3(0)); // exporters write it for all materials
+    CHECK(of("Tf .2 .4 .6\nd .5\n") == Vec3(.1, .2, .3));
+    CHECK(of("Tf .5\nillum 6\nd 1\n") == Vec3(.5));
+    CHECK(of("illum 7\n") == Vec3(1));
+    CHECK(of("illum 6\nd .75\n") == Vec3(.25));
+    CHECK(of("d -3\nTf 9 -1 .5\n") == Vec3(1, 0, 1)); // within [0,1] whatever it says
+    CHECK(of("d .5\nTf spectral a.rfl\n") == Vec3(.5));
 }
 
 TEST_CASE("what other readers take is read, with a word", "[mtl]") {

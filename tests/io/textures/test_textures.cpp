@@ -5,6 +5,7 @@
 #include "io/rendering/render.h"
 #include "io/scene_files/obj.h"
 #include "io/textures/texture_files.h"
+#include "io/textures/webp.h"
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
@@ -151,4 +152,22 @@ TEST_CASE("TGA is read by the extension of its name", "[texture]") {
     CHECK(texture->mean() == Vec3(.5, 0, .5));
     CHECK_FALSE(files.read(folder.write("a.bin", tga)));
     CHECK_FALSE(files.read(folder.write("b.tga", tga.substr(0, 9))));
+}
+
+TEST_CASE("WebP is read where hemilux was built with libwebp", "[texture]") {
+    // Red, then blue, without loss.
+    const std::string webp("RIFF\x1e\0\0\0WEBPVP8L\x11\0\0\0\x2f\x01\0\0\0\x0f\x10\xf3\xbf\xff\xf3"
+                           "\x1f\x0e\x32\xa2\xff\x01\0",
+                           38);
+    const test::TemporaryFolder folder;
+    const std::function<void(double)> guard;
+    TextureFiles files(guard);
+    const auto texture = files.read(folder.write("a.webp", webp));
+    CHECK(bool(texture) == is_readable_webp(webp));
+    if (!is_readable_webp(webp))
+        return;
+    CHECK(texture->mean() == Vec3(.5, 0, .5));
+    CHECK(texture->texel_at({.25, .5}, {}) == Vec3(1, 0, 0));
+    CHECK_THROWS_AS(decode_texture(webp.substr(0, 16), "t.webp"), InputError);
+    CHECK_THROWS_AS(decode_texture(webp.substr(0, 30), "t.webp"), InputError);
 }

@@ -71,7 +71,10 @@ struct MaterialInfo {
     Vec3 emissive{0.0};    ///< linear radiance, emissiveStrength included [nt]
     std::optional<TextureInfo> base_texture, emissive_texture;
     double metallic = 1;
-    bool transparent = false; ///< has an alpha mode or lets light through
+    double uncovered = 0;    ///< what alpha leaves open [-] (BLEND without a texture)
+    double transmission = 0; ///< of what is covered [-] (KHR_materials_transmission)
+    std::optional<TextureInfo> transmission_texture; ///< a factor of it, in red
+    bool is_cut_out = false; ///< lets light through by the alpha of a texture, which is not read
     bool double_sided = false;
     /// KHR_materials_unlit: the base colour is what it shows, whatever light arrives. Such a
     /// material has it as `emissive`, with its texture, and reflects nothing.
@@ -131,6 +134,7 @@ struct ImageInfo {
 enum class Wrapping : std::uint8_t { repeat, clamp, mirror };
 struct TextureSource {
     Index image;                   ///< none: of a kind that is not read, or missing
+    Index webp;                    ///< the same as WebP (EXT_texture_webp)
     bool is_of_other_kind = false; ///< the file has it as WebP, KTX2 or AVIF
     Wrapping wrap_s = Wrapping::repeat, wrap_t = Wrapping::repeat;
 };

@@ -38,11 +38,36 @@ Vec3 read_colour(const JsonValue& owner, std::string_view key, std::array<double
     return {numbers[0], numbers[1], numbers[2]};
 }
 
+/// Returns the fourth component of the base colour.
+double alpha_of(const JsonValue& material) {
+    std::array<double, 4> colour{1, 1, 1, 1};
+    if (const auto metal = material.find("pbrMetallicRoughness"))
+        metal->numbers_of("baseColorFactor", colour);
+    else if (const auto diffuse = material.extension("KHR_materials_pbrSpecularGlossiness"))
+        diffuse->numbers_of("diffuseFactor", colour);
+    return colour[3];
+}
+
+/// Only what is no metal transmits; metallic has been read before.
+void read_transmission(const JsonValue& value, const Document& document, MaterialInfo& material) {
+    const std::string mode = value.text_or("alphaMode", "OPAQUE");
+    if (mode == "BLEND" && !material.base_texture)
+        material.uncovered = 1 - std::clamp(alpha_of(value), 0.0, 1.0);
+    else
+        material.is_cut_out = mode != "OPAQUE";
+    if (const auto transmission = value.extension("KHR_materials_transmission")) {
+        material.transmission =
+            std::clamp(transmission->number_or("transmissionFactor", 0), 0.0, 1.0) *
+            (1 - std::clamp(material.metallic, 0.0, 1.0));
+        material.transmission_texture =
+            read_texture(*transmission, "transmissionTexture", document);
+    }
+}
+
 MaterialInfo read_material(const JsonValue& value, const Document& document) {
     MaterialInfo material;
     material.name = value.text_or("name", "");
     material.double_sided = value.flag_or("doubleSided", false);
-    material.transparent = value.text_or("alphaMode", "OPAQUE") != "OPAQUE";
     if (const auto metal = value.find("pbrMetallicRoughness")) {
         material.base_colour = read_colour<4>(*metal, "baseColorFactor", {1, 1, 1, 1});
         material.metallic = metal->number_or("metallicFactor", 1);
@@ -62,8 +87,7 @@ MaterialInfo read_material(const JsonValue& value, const Document& document) {
             strength->at("emissiveStrength").fail("expected a number of at least 0");
         material.emissive *= factor;
     }
-    if (const auto transmission = value.extension("KHR_materials_transmission"))
-        material.transparent |= transmission->number_or("transmissionFactor", 0) > 0;
+    read_transmission(value, document, material);
     material.unlit = value.extension("KHR_materials_unlit").has_value();
     if (material.unlit) {
         material.emissive = std::exchange(material.base_colour, Vec3(0.0));
@@ -91,6 +115,9 @@ void read_textures(const JsonValue& root, Document& document) {
         TextureSource& texture = document.textures.emplace_back();
         if (const auto source = value.find("source"))
             texture.image = source->whole(0, no_limit);
+        if (const auto webp = value.extension("EXT_texture_webp"))
+            if (const auto source = webp->find("source"))
+                texture.webp = source->whole(0, no_limit);
         for (const char* const kind :
              {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"})
             texture.is_of_other_kind |= value.extension(kind).has_value();

@@ -96,11 +96,11 @@ void DirectLight::sample(std::uint32_t patch, std::uint32_t end, RayBatch& batch
 }
 
 void DirectLight::send(RayBatch& batch) {
-    const auto use = [&](const RayBatch::Sample& sample, bool arrives) {
+    const auto use = [&](const RayBatch::Sample& sample, double share) {
         const auto& [patch, estimate, light] = sample;
         unblocked_[patch] += mean_of_channels(light);
-        if (arrives) {
-            sum_[patch * seeds_.size() + estimate] += light;
+        if (share > 0) {
+            sum_[patch * seeds_.size() + estimate] += share * light;
             ++hits_[patch];
         }
     };

@@ -177,11 +177,11 @@ void LightOfPoints::sample(std::uint32_t patch, std::uint32_t end, Work& work) {
 }
 
 void LightOfPoints::send(Work& work) {
-    work.traced += work.rays.trace(tracer_, [&](const Work::Sample& sample, bool arrives) {
+    work.traced += work.rays.trace(tracer_, [&](const Work::Sample& sample, double share) {
         const auto& [patch, estimate, light] = sample;
         unblocked_[patch] += mean_of_channels(light);
-        if (arrives) {
-            sum_[patch * seeds_.size() + estimate] += light;
+        if (share > 0) {
+            sum_[patch * seeds_.size() + estimate] += share * light;
             ++hits_[patch];
         }
     });

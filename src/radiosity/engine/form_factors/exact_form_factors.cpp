@@ -2,6 +2,7 @@
 
 #include "geometry/box.h"
 #include "radiosity/engine/form_factors/exchange_area.h"
+#include "radiosity/engine/rays/panes.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 
@@ -61,17 +62,17 @@ bool separated(const Outline& part, const Vec3& normal, const FacingPair& pair) 
     });
 }
 
-/// Returns whether no facet can stand between two patches. None may have a part that is in front of
-/// both planes, within the box of both and not separated from their hull.
-bool nothing_between(const Mesh& mesh, std::span<const Box> facet_boxes, const FacingPair& pair,
-                     const Patch& from, const Patch& to) {
+/// Returns whether nothing can stand between two patches. No facet or pane may have a part that is
+/// in front of both planes, within the box of both and not separated from their hull.
+bool nothing_between(std::span<const Polygon> shapes, std::span<const Box> boxes,
+                     const FacingPair& pair, const Patch& from, const Patch& to) {
     const Plane first{from.shape.corner[0], from.normal}, second{to.shape.corner[0], to.normal};
     Box box = box_of(pair.from);
     box.include(box_of(pair.to));
-    for (std::uint32_t f = 0; f < facet_boxes.size(); ++f) {
-        if (f == from.facet || f == to.facet || !overlap(facet_boxes[f], box))
+    for (std::uint32_t f = 0; f < boxes.size(); ++f) {
+        if (f == from.facet || f == to.facet || !overlap(boxes[f], box))
             continue;
-        const Polygon shape = mesh.shape_of(f);
+        const Polygon& shape = shapes[f];
         const Outline part =
             in_front(in_front(outline_of(shape), first, plane_rounding), second, plane_rounding);
         if (!part.empty() && overlap(box_of(part), box) && !separated(part, shape.normal(), pair))
@@ -84,12 +85,17 @@ bool nothing_between(const Mesh& mesh, std::span<const Box> facet_boxes, const F
 
 ExactFormFactors::ExactFormFactors(const Mesh& mesh, const Workers& workers, const Monitor& monitor)
     : rows_(mesh.patches().size()) {
-    std::vector<Box> boxes;
+    std::vector<Polygon> shapes; // of facets, then of panes
     for (std::uint32_t f = 0; f < mesh.soup().facets.size(); ++f)
-        boxes.push_back(box_of(mesh.shape_of(f).corner));
+        shapes.push_back(mesh.shape_of(f));
+    for (const Polygon& pane : local_panes(mesh))
+        shapes.push_back(pane);
+    std::vector<Box> boxes;
+    for (const Polygon& shape : shapes)
+        boxes.push_back(box_of(shape.corner));
     workers.for_chunks(rows_.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
-            find_row(mesh, static_cast<std::uint32_t>(i), boxes);
+            find_row(mesh, static_cast<std::uint32_t>(i), shapes, boxes);
     });
     // The lower half follows by reciprocity.
     const auto patches = mesh.patches();
@@ -105,15 +111,15 @@ ExactFormFactors::ExactFormFactors(const Mesh& mesh, const Workers& workers, con
         std::ranges::sort(row, {}, &Entry::patch);
 }
 
-void ExactFormFactors::find_row(const Mesh& mesh, std::uint32_t i,
-                                std::span<const Box> facet_boxes) {
+void ExactFormFactors::find_row(const Mesh& mesh, std::uint32_t i, std::span<const Polygon> shapes,
+                                std::span<const Box> boxes) {
     const auto patches = mesh.patches();
     for (std::uint32_t j = i + 1; j < patches.size(); ++j) {
         const FacingPair pair = facing_parts(patches[i].shape, patches[j].shape, plane_rounding);
         if (pair.from.empty())
             continue;
         const double smaller = std::min(patches[i].area, patches[j].area);
-        const double factor = nothing_between(mesh, facet_boxes, pair, patches[i], patches[j])
+        const double factor = nothing_between(shapes, boxes, pair, patches[i], patches[j])
                                   ? exchange_area(pair.from, pair.to, smaller) / patches[i].area
                                   : sampled;
         rows_[i].push_back({j, factor});

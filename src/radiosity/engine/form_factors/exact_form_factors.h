@@ -4,6 +4,7 @@
 // may.
 
 #include "geometry/box.h"
+#include "geometry/polygon.h"
 #include "radiosity/engine/form_factors/sampled_form_factors.h"
 
 #include <cstdint>
@@ -37,8 +38,10 @@ class ExactFormFactors {
         std::uint32_t patch;
         double factor; ///< F [-]; < 0: to be sampled
     };
-    /// Finds the pairs of a patch with patches of higher index.
-    void find_row(const Mesh& mesh, std::uint32_t patch, std::span<const Box> facet_boxes);
+    /// Finds the pairs of a patch with patches of higher index. `shapes`, in boxes, may stand
+    /// between patches: first all facets.
+    void find_row(const Mesh& mesh, std::uint32_t patch, std::span<const Polygon> shapes,
+                  std::span<const Box> boxes);
 
     std::vector<std::vector<Entry>> rows_; ///< entries by patch, ascending
 };

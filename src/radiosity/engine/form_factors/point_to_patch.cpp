@@ -58,7 +58,7 @@ double PairLook::factor(const std::array<double, 4>& u, std::uint64_t& rays) con
     if (!(f > 0) || !visibility_)
         return f;
     ++rays;
-    return tracer_.occluded(ray, to_.facet) ? 0 : f;
+    return tracer_.occluded(ray, to_.facet) ? 0 : f * tracer_.passed(ray);
 }
 
 } // namespace hemilux

@@ -1,6 +1,7 @@
 #include "radiosity/engine/needs/convex_enclosure.h"
 
 #include "radiosity/engine/needs/welded_edges.h"
+#include "radiosity/engine/rays/panes.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
@@ -135,7 +136,7 @@ bool match_in_pieces(const std::vector<Edge>& edges, const Mesh& mesh) {
 } // namespace
 
 Enclosure convex_enclosure(const Mesh& mesh) {
-    if (!all_in_front(mesh.soup()))
+    if (!panes_of(mesh.scene()).empty() || !all_in_front(mesh.soup()))
         return Enclosure::not_found;
     const std::vector<Edge> alone = unshared(welded_edges(mesh.scene()));
     if (alone.empty())

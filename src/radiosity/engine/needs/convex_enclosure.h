@@ -14,7 +14,8 @@ enum class Enclosure {
 
 /// In a closed convex room each plane has all vertices in front of it, and each edge, or each piece
 /// of an edge that corners of others cut, belongs to two facets that run along it in opposite
-/// directions. It is not looked for among some thousands of planes and vertices.
+/// directions. It is not looked for among some thousands of planes and vertices. A scene with panes
+/// is none, as light may end between its walls.
 [[nodiscard]] Enclosure convex_enclosure(const Mesh& mesh);
 
 } // namespace hemilux

@@ -1,9 +1,11 @@
 #include "radiosity/engine/rays/make_tracer.h"
 
 #include "bvh/wide/wide_bvh.h"
+#include "radiosity/engine/rays/tracer_with_panes.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -28,16 +30,22 @@ Crowd find_crowd(const Mesh& mesh, const WideBvh& tree) {
     return crowd;
 }
 
+std::unique_ptr<Tracer> with_panes(std::unique_ptr<Tracer> facets, const Mesh& mesh) {
+    if (panes_of(mesh.scene()).empty())
+        return facets;
+    return std::make_unique<TracerWithPanes>(std::move(facets), mesh);
+}
+
 } // namespace
 
 MadeTracer make_tracer(const Mesh& mesh, bool tree, unsigned threads) {
     auto tracer = std::make_unique<WideBvh>(mesh.soup_to_trace(),
                                             WideBvhOptions{.threads = threads, .hierarchy = tree});
     if (!tree)
-        return {std::move(tracer), {}, {}};
+        return {with_panes(std::move(tracer), mesh), {}, {}};
     const BvhQuality quality = tracer->quality();
     const Crowd crowd = find_crowd(mesh, *tracer);
-    return {std::move(tracer), quality, crowd};
+    return {with_panes(std::move(tracer), mesh), quality, crowd};
 }
 
 } // namespace hemilux

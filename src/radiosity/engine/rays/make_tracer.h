@@ -24,8 +24,8 @@ struct MadeTracer {
     Crowd crowd;                    ///< crowd in the tree
 };
 
-/// Makes a tracer, which the mesh must outlive. `tree` is that of Needs. So many `threads` build
-/// it; 0 means one per core.
+/// Makes a tracer, which the mesh must outlive. It lets light through the panes of the scene.
+/// `tree` is that of Needs. So many `threads` build it; 0 means one per core.
 [[nodiscard]] MadeTracer make_tracer(const Mesh& mesh, bool tree, unsigned threads = 0);
 
 } // namespace hemilux

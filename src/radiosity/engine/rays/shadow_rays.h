@@ -24,14 +24,14 @@ class ShadowRays {
     [[nodiscard]] const Ray& ray(std::size_t k) const { return rays_[k]; }
     [[nodiscard]] const Sample& sample(std::size_t k) const { return samples_[k]; }
 
-    /// Traces the rays and forgets them; calls use(sample, arrives) for each. Returns how many
-    /// there were.
+    /// Traces the rays and forgets them; calls use(sample, share) for each, with the share of its
+    /// light that arrives [-]. Returns how many there were.
     template <class Use>
     std::size_t trace(const Tracer& tracer, const Use& use) {
         blocked_.resize(rays_.size());
         tracer.occluded_stream(rays_, targets_, blocked_);
         for (std::size_t k = 0; k < rays_.size(); ++k)
-            use(samples_[k], blocked_[k] == 0);
+            use(samples_[k], blocked_[k] != 0 ? 0.0 : tracer.passed(rays_[k]));
         const std::size_t traced = rays_.size();
         clear();
         return traced;
@@ -40,7 +40,7 @@ class ShadowRays {
     template <class Use>
     void take_all(const Use& use) {
         for (const Sample& sample : samples_)
-            use(sample, true);
+            use(sample, 1.0);
         clear();
     }
     void clear() {

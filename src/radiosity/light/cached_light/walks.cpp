@@ -66,12 +66,12 @@ void Walks::trace(std::uint32_t begin, std::uint32_t end, Work& work,
         work.sees_emission.push_back(!by_shadow_ray);
     }
     work.traced += work.rays.size();
-    work.traced += work.shadow.trace(tracer_, [&](const LightAtPlace& sample, bool arrives) {
-        if (!arrives)
+    work.traced += work.shadow.trace(tracer_, [&](const LightAtPlace& sample, double share) {
+        if (!(share > 0))
             return;
-        work.vertices[sample.place].found += sample.light;
+        work.vertices[sample.place].found += share * sample.light;
         if (sample.place < found.size())
-            found[sample.place].direct += sample.light;
+            found[sample.place].direct += share * sample.light;
     });
     find_receivers(work.rays, mesh_, tracer_, work.receivers);
     for (std::uint32_t v = begin; v < end; ++v) {

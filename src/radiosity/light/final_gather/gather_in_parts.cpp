@@ -34,9 +34,9 @@ std::vector<EmitterLight> GatherInParts::direct(std::span<const SurfacePoint> po
     WeighedEmitters weighed;
     ShadowRays<LightAtPlace> rays;
     const auto trace = [&] {
-        rays.trace(tracer_, [&](const LightAtPlace& sample, bool arrives) {
-            if (arrives)
-                found[sample.place].arriving += sample.light;
+        rays.trace(tracer_, [&](const LightAtPlace& sample, double share) {
+            if (share > 0)
+                found[sample.place].arriving += share * sample.light;
         });
     };
     for (std::uint32_t k = 0; k < points.size(); ++k) {
@@ -75,9 +75,9 @@ std::vector<Vec3> GatherInParts::from_points(std::span<const SurfacePoint> point
     if (only_reflected_ || emitters.empty())
         return found;
     ShadowRays<LightAtPlace> rays;
-    const auto add = [&](const LightAtPlace& sample, bool arrives) {
-        if (arrives)
-            found[sample.place] += sample.light;
+    const auto add = [&](const LightAtPlace& sample, double share) {
+        if (share > 0)
+            found[sample.place] += share * sample.light;
     };
     for (std::uint32_t k = 0; k < points.size(); ++k) {
         emitters.add_rays(points[k], PointEmitters::max_rays_of_point,
@@ -95,17 +95,18 @@ std::vector<Vec3> GatherInParts::from_points(std::span<const SurfacePoint> point
 /// densities of both (balance heuristic: Veach and Guibas 1995).
 void GatherInParts::read_patches(std::span<const SurfacePoint> points, const Rays& rays,
                                  std::span<IndirectLight> found) const {
+    const Tracer& facets = tracer_.of_facets();
     std::array<FacetHit, rays_at_a_time> hits;
     PathRays near;
     for (std::size_t begin = 0; begin < rays.rays.size(); begin += hits.size()) {
         const std::size_t n = std::min(hits.size(), rays.rays.size() - begin);
         const auto some = std::span(rays.rays).subspan(begin, n);
-        tracer_.closest_stream(some, std::span(hits).first(n));
+        facets.closest_stream(some, std::span(hits).first(n));
         for (std::size_t k = 0; k < n; ++k) {
             if (hits[k].facet == none)
                 continue;
             const Ray& ray = some[k];
-            const Hit hit = tracer_.locate(ray, hits[k].facet);
+            const Hit hit = facets.locate(ray, hits[k].facet);
             const std::uint32_t patch = mesh_.patch_at(hit);
             const auto& [place, at_random, target] = rays.samples[begin + k];
             if (target != none && patch != target)
@@ -124,17 +125,19 @@ void GatherInParts::read_patches(std::span<const SurfacePoint> points, const Ray
             const Patch& on = mesh_.patches()[patch];
             const Colours here = colours_at(mesh_, on, point);
             const SurfaceLight::Irradiance arriving = light_.irradiance(patch, point);
-            Vec3 sent = only_reflected_ || emitters_.contains(patch) ? Vec3(0.0) : here.emission;
+            const double passed = tracer_.passed_up_to(ray, hit.t);
+            Vec3 sent =
+                only_reflected_ || emitters_.contains(patch) ? Vec3(0.0) : passed * here.emission;
             if (hit.t < arriving.near) {
                 light.irradiance += sent / rays_there;
                 paths_.begin_at({point, on.normal, on.facet, patch},
                                 {.seed = hash_words({rays.seed, begin + k}),
                                  .place = place,
-                                 .share = here.reflectance / rays_there},
+                                 .share = passed * here.reflectance / rays_there},
                                 near);
-                sent += here.reflectance * arriving.value;
+                sent += passed * here.reflectance * arriving.value;
             } else {
-                sent += here.reflectance * arriving.value;
+                sent += passed * here.reflectance * arriving.value;
                 light.irradiance += sent / rays_there;
             }
             const double square = mean_of_channels(sent * sent);

@@ -21,18 +21,19 @@ constexpr unsigned max_bounces = 8;
 std::uint64_t GatherPaths::trace(PathRays rays, std::span<Vec3> found) const {
     std::uint64_t traced = 0;
     for (unsigned bounce = 0; !rays.random.empty(); ++bounce) {
-        traced += rays.shadow.trace(tracer_, [&](const LightAtPlace& sample, bool arrives) {
-            if (arrives)
-                found[sample.place] += sample.light;
+        traced += rays.shadow.trace(tracer_, [&](const LightAtPlace& sample, double share) {
+            if (share > 0)
+                found[sample.place] += share * sample.light;
         });
         traced += rays.random.size();
         std::vector<std::uint32_t> receivers;
-        find_receivers(rays.random, mesh_, tracer_, receivers);
+        find_receivers(rays.random, mesh_, tracer_.of_facets(), receivers);
         std::vector<Met> further;
         for (std::size_t k = 0; k < rays.random.size(); ++k) {
             if (receivers[k] == escaped || receivers[k] == absorbed)
                 continue;
             const Met met = where_met(rays, k, receivers[k]);
+            rays.states[k].share *= tracer_.passed_up_to(rays.random[k], met.distance);
             if (end_ray(rays.states[k], met, bounce, found))
                 further.push_back(met);
         }

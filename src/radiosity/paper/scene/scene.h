@@ -13,6 +13,7 @@
 namespace hemilux {
 
 struct PointEmitter; // a light without extent (radiosity/engine/rays)
+struct Pane;         // a face that lets light through (radiosity/engine/rays)
 
 /// A diffuse surface. Colours have three channels: red, green, blue.
 struct Material {
@@ -44,6 +45,9 @@ struct Scene {
     std::shared_ptr<VaryingColours> varying = {};
     /// Lights without extent; it is empty where there are none. Copies of a scene share them.
     std::shared_ptr<const std::vector<PointEmitter>> point_emitters = {};
+    /// Faces that dim light and do nothing else, so they are no facets; empty, and shared, as
+    /// above.
+    std::shared_ptr<const std::vector<Pane>> panes = {};
 
     [[nodiscard]] bool colours_vary_on(std::uint32_t material) const {
         return varying && varying->on(material);

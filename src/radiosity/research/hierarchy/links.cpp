@@ -149,9 +149,9 @@ class LinkLooks {
             finish();
     }
     void finish() {
-        traced_ += rays_.trace(tracer_, [](const Term& term, bool arrives) {
-            if (arrives)
-                *term.sum += term.factor;
+        traced_ += rays_.trace(tracer_, [](const Term& term, double share) {
+            if (share > 0)
+                *term.sum += share * term.factor;
         });
     }
     [[nodiscard]] std::uint64_t traced() const { return traced_; }
