@@ -49,7 +49,7 @@ endif()
 
 # Each block of cmake in the page has the program's block of cpp behind it.
 file(READ ${CMAKE_CURRENT_LIST_DIR}/../../docs/use/library.md page)
-foreach(program first pages room)
+foreach(program first pages strategy room)
   if(program STREQUAL "room" AND NOT WITH_IO)
     break()
   endif()

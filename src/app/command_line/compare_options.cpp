@@ -5,10 +5,12 @@
 #include "app/command_line/options.h"
 #include "app/command_line/solving_options.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/method_options.h"
 #include "app/settings/names.h"
 #include "io/files/text_words.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -20,12 +22,12 @@ namespace {
 std::vector<MethodVariant> possible_variants() {
     std::vector<MethodVariant> list;
     for (const Method* const method : methods()) {
-        list.push_back({std::string(method->name), method, {}, {}});
+        list.push_back({std::string(method->name), method});
         for (const MethodOption& own : method->own_options())
             for (const std::string& value : own.values)
                 if (own.makes_variants && value != own.get(SolveOptions{}))
                     list.push_back(
-                        {std::string(method->name) + "-" + value, method, own.name, value});
+                        {std::string(method->name) + "-" + value, method, {{own.name, value}}});
     }
     return list;
 }
@@ -35,20 +37,72 @@ MethodVariant variant_by_name(std::string_view name) {
     for (const MethodVariant& variant : possible_variants()) {
         if (variant.name == name)
             return variant;
-        if (variant.value.empty() && variant.method == find_method(name))
-            return {std::string(name), variant.method, {}, {}}; // results call it as the user does
+        if (variant.settings.empty() && variant.method == find_method(name))
+            return {std::string(name), variant.method}; // results call it as the user does
         names.push_back(variant.name);
     }
     throw UsageError("--methods: " + unknown_name("method", name, names));
+}
+
+/// Returns what may stand behind METHOD: in --methods, without dashes.
+std::vector<std::string> settable_options(const Method& method) {
+    std::vector<std::string> names{"rays"};
+    if (method.has_depth)
+        names.insert(names.end(), {"depth", "threshold"});
+    for (const MethodOption& own : method.own_options())
+        names.push_back(own.name.substr(2));
+    return names;
+}
+
+/// Adds NAME=VALUE, or NAME for a flag.
+void add_setting(MethodVariant& variant, const std::string& text) {
+    const std::size_t equals = std::min(text.find('='), text.size());
+    const std::string option = text.substr(0, equals);
+    const std::string value = equals < text.size() ? text.substr(equals + 1) : "yes";
+    const std::vector<std::string> names = settable_options(*variant.method);
+    if (std::ranges::find(names, option) == names.end())
+        throw UsageError("--methods: " + std::string(variant.method->name) + ": " +
+                         unknown_name("option", option, names));
+    SolveOptions ignored;
+    bool is_taken = false;
+    try {
+        is_taken = set_option(*variant.method, "--" + option, value, ignored);
+    } catch (const std::invalid_argument& error) {
+        throw UsageError("--methods: " + option + ": " + error.what());
+    }
+    if (!is_taken)
+        throw UsageError("--methods: " + std::string(variant.method->name) + " takes no " + option +
+                         "=" + value);
+    variant.settings.push_back({"--" + option, value});
+}
+
+/// Reads METHOD or METHOD:NAME=VALUE:NAME=VALUE; a value may have colons.
+MethodVariant variant_from(std::string_view text) {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    MethodVariant variant = variant_by_name(text.substr(0, colon));
+    variant.name = text;
+    if (colon == text.size())
+        return variant;
+    std::vector<std::string> settings;
+    for (const std::string_view part : parts_of(text.substr(colon + 1), ':'))
+        if (part.find('=') == std::string_view::npos && !settings.empty() &&
+            settings.back().find('=') != std::string::npos)
+            settings.back() += ":" + std::string(part);
+        else
+            settings.emplace_back(part);
+    for (const std::string& setting : settings)
+        add_setting(variant, setting);
+    return variant;
 }
 
 /// Reads names with commas between them.
 std::vector<MethodVariant> variants_from(std::string_view text) {
     std::vector<MethodVariant> list;
     for (const std::string_view name : parts_of(text, ',')) {
-        MethodVariant variant = variant_by_name(name);
+        MethodVariant variant = variant_from(name);
         if (std::ranges::any_of(list, [&variant](const MethodVariant& other) {
-                return other.method == variant.method && other.value == variant.value;
+                return (other.method == variant.method && other.settings == variant.settings) ||
+                       other.file_name() == variant.file_name();
             }))
             throw UsageError("--methods: '" + variant.name + "' is named twice");
         list.push_back(std::move(variant));
@@ -59,12 +113,14 @@ std::vector<MethodVariant> variants_from(std::string_view text) {
 void add_methods_option(Command command, std::vector<MethodVariant>& list) {
     std::vector<std::string> with_values;
     for (const MethodVariant& variant : possible_variants())
-        if (!variant.value.empty())
+        if (!variant.settings.empty())
             with_values.push_back(variant.name);
         else if (variant.method->unbiased || variant.method->role == Role::standard)
             list.push_back(variant);
     command.add_value("--methods", "METHOD,METHOD,...",
-                      "what to compare, see below; also " + joined(with_values, ", ") + " [" +
+                      "what to compare, see below; also " + joined(with_values, ", ") +
+                          "; METHOD:NAME=VALUE with options of its own, as hemisphere:depth=3, and "
+                          "so a method several times [" +
                           std::string(method_of(Role::standard).name) +
                           " and all that are unbiased]",
                       [&list](const std::string& text) { list = variants_from(text); });
@@ -73,9 +129,15 @@ void add_methods_option(Command command, std::vector<MethodVariant>& list) {
 void add_budget_options(Command command, CompareSettings& settings) {
     const Option rays = add_number(command, "--budget-rays", "N", settings.budget.rays, positive,
                                    "rays, density rays included [64 steps]");
-    add_seconds(command, "--budget-time", settings.budget.seconds, positive,
-                "its own time, preprocessing included")
-        .excludes(rays);
+    const Option time = add_seconds(command, "--budget-time", settings.budget.seconds, positive,
+                                    "its own time, preprocessing included");
+    time.excludes(rays);
+    const Option error =
+        add_error(command, "--budget-error", settings.budget.error,
+                  "until its true error is this, by the reference; rays and seconds then compare "
+                  "at equal error");
+    error.excludes(rays);
+    error.excludes(time);
     add_whole<std::uint32_t>(command, "--runs", settings.runs, 1, 1000,
                              "runs of each method, with seeds that follow each other [3]");
 }
@@ -93,6 +155,9 @@ void add_reference_options(Command command, CompareSettings& settings) {
     command.add_flag("--total", settings.total,
                      "curves and gains by the error of the light itself: also that a patch has one "
                      "value; the table has both errors");
+    command.add_flag("--relative-mse", settings.relative_mse,
+                     "also relMSE: the mean over area and channels of the squared error over the "
+                     "square of the reference and a hundredth of that of its mean");
     add_detail_option(command, settings.detail);
 }
 
@@ -100,6 +165,8 @@ constexpr const char* compare_examples = R"(
 Examples:
   hemilux compare room.obj -o compared
   hemilux compare room.obj -o compared --methods hemisphere,stratified --budget-time 10
+  hemilux compare room.obj -o depths --methods hemisphere:depth=2,hemisphere:depth=3
+  hemilux compare room.obj -o equal --budget-error 2% --relative-mse
   hemilux compare room.obj -o again --reference compared/reference.csv --literal
 )";
 
@@ -114,7 +181,7 @@ Command add_compare_command(Arguments& program, CompareSettings& settings) {
     add_methods_option(method, settings.variants);
     add_method_options(method, settings.options);
     add_own_options(command.under(own_group), methods(), settings.options);
-    add_budget_options(command.under("Budget of each run of each method, one of the two"),
+    add_budget_options(command.under("Budget of each run of each method, one of the three"),
                        settings);
     add_reference_options(command.under(comparison_group), settings);
     outputs

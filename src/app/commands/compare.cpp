@@ -180,6 +180,8 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     settings.view = view_of(settings.view, loaded.view, settings.verbosity);
     check_camera(settings.view, mesh, settings.scene.path);
     check_own_options(settings.options, methods, mesh.patches().size());
+    for (const MethodVariant& variant : settings.variants)
+        check_variant(variant, settings.options, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
     std::optional<Reference> reference;
     if (!settings.reference.empty())

@@ -96,12 +96,12 @@ void write_pictures(const Comparison& comparison, std::span<const MethodRuns> re
     std::vector<std::vector<float>> differences;
     for (const MethodRuns& result : results) {
         const Image image = picture(result.radiosity);
-        write(result.variant.name + ".png", image, display);
+        write(result.variant.file_name() + ".png", image, display);
         differences.push_back(luminance_difference(image, truth, display.exposure));
     }
     const DifferenceScale scale = common_scale(differences);
     for (std::size_t i = 0; i < results.size(); ++i)
-        write(results[i].variant.name + "_difference.png",
+        write(results[i].variant.file_name() + "_difference.png",
               false_colour(differences[i], truth.width, truth.height, scale), 1);
 }
 
@@ -153,7 +153,7 @@ RunFiles check_files(const CompareSettings& settings) {
     std::vector<std::string> names{"error.csv", "error.svg", "reference.png"};
     for (const MethodVariant& variant : settings.variants)
         for (const char* const end : {".png", "_difference.png"})
-            names.push_back(variant.name + end);
+            names.push_back(variant.file_name() + end);
     if (settings.reference.empty())
         names.push_back("reference.csv");
     for (std::string& name : names)

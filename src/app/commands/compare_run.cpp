@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <memory>
 
 namespace hemilux {
@@ -18,9 +19,12 @@ namespace {
 /// Returns the budget as given, or the default number of rays.
 Budget budget_of(const Comparison& comparison) {
     Budget budget = comparison.settings.budget;
-    if (!budget.rays && !budget.seconds)
-        budget.rays = Budget::default_steps * comparison.settings.options.rays *
-                      static_cast<double>(comparison.mesh.patches().size());
+    const double usual = Budget::default_steps * comparison.settings.options.rays *
+                         static_cast<double>(comparison.mesh.patches().size());
+    if (budget.error)
+        budget.rays = Budget::most_for_error * usual;
+    else if (!budget.rays && !budget.seconds)
+        budget.rays = usual;
     return budget;
 }
 
@@ -71,11 +75,19 @@ class Runner {
             return true;
         if (result_.rows.empty())
             return false;
+        if (budget_.error && error() <= *budget_.error)
+            return true;
         const double growth =
             step_before_ > 0 ? std::clamp(last_step_ / step_before_, 1.0, 2.0) : 1.0;
         return solver_->finished() || used() + growth * last_step_ / 2 > limit();
     }
-    [[nodiscard]] double share() const { return done() ? 1 : std::min(1.0, used() / limit()); }
+    [[nodiscard]] double share() const {
+        if (done())
+            return 1;
+        if (budget_.error && !result_.rows.empty()) // rays go as the inverse square of the error
+            return std::min(.99, std::pow(*budget_.error / error(), 2));
+        return std::min(1.0, used() / limit());
+    }
     [[nodiscard]] const std::vector<Vec3>& radiosity() const {
         return solver_->solution().radiosity;
     }
@@ -98,6 +110,11 @@ class Runner {
             return std::nullopt;
         return std::max(2 * *budget_.seconds - seconds_, least);
     }
+    /// Returns the true error after the last step, of what the curves show.
+    [[nodiscard]] double error() const {
+        const StepRow& last = result_.rows.back();
+        return last.total_error.value_or(last.error->all);
+    }
     [[nodiscard]] const Ranks& ranks() const { return *comparison_.settings.ranks; }
     [[nodiscard]] double limit() const { return budget_.rays ? *budget_.rays : *budget_.seconds; }
     [[nodiscard]] double used() const {
@@ -109,11 +126,16 @@ class Runner {
     [[nodiscard]] StepRow row() const {
         const Solution& solution = solver_->solution();
         const auto step = static_cast<std::uint32_t>(result_.rows.size() + 1);
-        return {variant_.name, run_,
+        return {variant_.name,
+                run_,
                 StepRecord{step, rays(), seconds_, estimated_error(comparison_.mesh, solution)},
                 comparison_.reference.error(comparison_.mesh, solution.radiosity),
                 comparison_.light ? std::optional(comparison_.light->error(solution.radiosity))
-                                  : std::nullopt};
+                                  : std::nullopt,
+                comparison_.settings.relative_mse
+                    ? std::optional(
+                          comparison_.reference.relative_mse(comparison_.mesh, solution.radiosity))
+                    : std::nullopt};
     }
 
     void keep_light() {

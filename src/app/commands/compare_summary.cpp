@@ -63,6 +63,8 @@ MethodSummary summarise(const MethodRuns& result, bool literal) {
     if (runs.front()->rows.back().total_error)
         summary.total_error =
             geometric_mean(runs, [](const StepRow& row) { return *row.total_error; });
+    if (runs.front()->rows.back().relative_mse)
+        summary.relative_mse = mean(runs, [](const StepRow& row) { return *row.relative_mse; });
     summary.estimated_error =
         geometric_mean(runs, [](const StepRow& row) { return row.record.estimated_error; });
     summary.runs = runs.size();
@@ -92,7 +94,7 @@ std::string gain(const std::optional<Gain>& x) {
     return *x->standard_error == 0 ? times : times + formatted(" +- %.2f", *x->standard_error);
 }
 
-/// The column of the total error, where there is one, before `error %`.
+/// The column of the total error and of relMSE, where there are any, before `error %`.
 constexpr std::ptrdiff_t total_column = 3;
 
 std::vector<std::string> table_row(const MethodSummary& s) {
@@ -107,6 +109,8 @@ std::vector<std::string> table_row(const MethodSummary& s) {
                                     gain(s.gain_seconds),
                                     gain(s.gain_rays),
                                     s.bytes_density > 0 ? byte_size(s.bytes_density) : "-"};
+    if (s.relative_mse)
+        row.insert(row.begin() + total_column, number("%.3g", *s.relative_mse));
     if (s.total_error)
         row.insert(row.begin() + total_column, number("%.3g", 100 * *s.total_error));
     return row;
@@ -194,6 +198,8 @@ std::vector<std::vector<std::string>> summary_rows(std::span<const MethodSummary
     std::vector<std::vector<std::string>> rows{{"method", "rays", "seconds", "error %", "detail %",
                                                 "rest %", "estimated %", "estimated/error",
                                                 "time gain", "ray gain", "density bytes"}};
+    if (!summaries.empty() && summaries.front().relative_mse)
+        rows.front().insert(rows.front().begin() + total_column, "relMSE");
     if (!summaries.empty() && summaries.front().total_error)
         rows.front().insert(rows.front().begin() + total_column, "total %");
     for (const MethodSummary& summary : summaries)

@@ -23,7 +23,8 @@ struct MethodSummary {
     double rays = 0, seconds = 0;
     RelativeError error;
     std::optional<double> total_error; ///< error with --total; curves and gains are then of it
-    double estimated_error = 0;        ///< relative [-]
+    std::optional<double> relative_mse;
+    double estimated_error = 0; ///< relative [-]
     std::uint64_t bytes_density = 0;
     std::vector<ErrorCurve> runs_by_seconds, runs_by_rays; ///< true error, or total
     std::size_t runs = 0;                                  ///< runs that count

@@ -307,6 +307,24 @@ FileLightmap lightmap_of_obj(const SolveSettings& settings, const Mesh& mesh, in
     return found;
 }
 
+/// Names the materials whose occlusion is replaced.
+std::vector<std::string> lost_occlusion(const gltf::LitSource& source) {
+    std::vector<std::string> names;
+    for (const PrimitiveOrigin& origin : source.origins())
+        if (const auto material = source.primitive_of(origin).material) {
+            const gltf::MaterialInfo& info = source.document().materials[*material];
+            const std::string name = "'" + info.name + "'";
+            if (info.has_occlusion && std::ranges::find(names, name) == names.end())
+                names.push_back(name);
+        }
+    if (names.empty())
+        return {};
+    return {source.path() + ": " + list_names(names, 4) +
+            (names.size() == 1 ? " has an occlusionTexture, which is"
+                               : " have an occlusionTexture, which are") +
+            " replaced; --bind texture leaves materials as they are"};
+}
+
 } // namespace
 
 double bytes_of_own_file(const SolveSettings& settings) {
@@ -337,6 +355,8 @@ FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
         std::make_unique<gltf::LitSource>(path, memory_guard(path, settings.scene.memory),
                                           settings.scene.outside, std::move(origins));
     warn_once(warnings, found.source->warnings(), settings.verbosity);
+    if (bake.binding == Binding::occlusion)
+        warn_once(warnings, lost_occlusion(*found.source), settings.verbosity);
     constexpr double copies = 4; // buffers, as one, and both as they are written
     memory_guard(path, settings.scene.memory)(copies * found.source->bytes());
     if (bake.smooth)

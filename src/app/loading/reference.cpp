@@ -38,6 +38,21 @@ void check_same_patches(const PatchTable& table, const std::string& path, const 
 
 } // namespace
 
+double Reference::relative_mse(const Mesh& mesh, std::span<const Vec3> solution) const {
+    double area = 0, light = 0, sum = 0;
+    for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
+        area += 3 * mesh.patches()[i].area;
+        light += mesh.patches()[i].area * glm::dot(radiosity[i], Vec3(1.0));
+    }
+    const double least = .01 * (light / area) * (light / area);
+    for (std::uint32_t i = 0; least > 0 && i < radiosity.size(); ++i) {
+        const Vec3 off = solution[i] - radiosity[i];
+        const Vec3 relative = off * off / (radiosity[i] * radiosity[i] + least);
+        sum += mesh.patches()[i].area * glm::dot(relative, Vec3(1.0));
+    }
+    return sum / area;
+}
+
 Reference reference_of(PatchTable table, const std::string& path, const Mesh& mesh,
                        std::vector<bool> detail) {
     check_same_patches(table, path, mesh);

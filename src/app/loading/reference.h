@@ -18,6 +18,9 @@ struct Reference {
     [[nodiscard]] RelativeError error(const Mesh& mesh, std::span<const Vec3> solution) const {
         return true_error(mesh, solution, radiosity, detail);
     }
+    /// Returns the mean over area and channels of (B - B*)^2 / (B*^2 + mean(B*)^2 / 100): relMSE of
+    /// Rousselle, Knaus and Zwicker (2011), whose 0.01 is for pictures with a mean of 1.
+    [[nodiscard]] double relative_mse(const Mesh& mesh, std::span<const Vec3> solution) const;
 };
 
 /// Takes the solution of a patch table that was read. Throws InputError, naming the file, unless

@@ -5,6 +5,7 @@
 #include "app/settings/text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -24,10 +25,45 @@ std::string methods_with_a_page() {
 }
 
 SolveOptions MethodVariant::applied_to(SolveOptions options) const {
-    for (const MethodOption& own : method->own_options())
-        if (own.name == option)
-            own.set(options, value);
+    for (const auto& [option, value] : settings)
+        if (!set_option(*method, option, value, options))
+            throw UsageError("--methods: " + name + ": " + option + " " + value);
     return options;
+}
+
+std::string MethodVariant::file_name() const {
+    std::string file = name;
+    std::ranges::replace_if(
+        file, [](char letter) { return letter == ':' || letter == '=' || letter == '/'; }, '-');
+    return file;
+}
+
+bool set_option(const Method& method, std::string_view name, const std::string& value,
+                SolveOptions& options) {
+    for (const MethodOption& own : method.own_options())
+        if (own.name == name)
+            return own.set(options, value);
+    const std::optional<double> number = parse_number(value);
+    if (!number)
+        return false;
+    if (name == "--rays" && *number > 0)
+        options.rays = *number;
+    else if (name == "--threshold" && *number >= 0)
+        options.threshold = *number;
+    else if (name == "--depth" && *number >= 0 && *number <= 5 && *number == std::floor(*number))
+        options.depth = static_cast<int>(*number);
+    else
+        return false;
+    return true;
+}
+
+void check_variant(const MethodVariant& variant, const SolveOptions& options, std::size_t patches) {
+    try {
+        if (variant.method->check)
+            variant.method->check(variant.applied_to(options), patches);
+    } catch (const std::invalid_argument& error) {
+        throw UsageError("--methods: " + variant.name + ": " + error.what());
+    }
 }
 
 namespace {

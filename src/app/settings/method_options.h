@@ -15,6 +15,14 @@ namespace hemilux {
 void check_own_options(const SolveOptions& options, std::span<const Method* const> chosen,
                        std::size_t patches = 0);
 
+/// Sets --rays, --depth, --threshold or an option of the method. Returns false, with nothing
+/// changed, for another option or value; throws as MethodOption::set.
+[[nodiscard]] bool set_option(const Method& method, std::string_view name, const std::string& value,
+                              SolveOptions& options);
+
+/// Throws UsageError where the method refuses the options of the variant.
+void check_variant(const MethodVariant& variant, const SolveOptions& options, std::size_t patches);
+
 /// Returns the names of the methods for which `belongs` holds, with `between` between them.
 [[nodiscard]] std::string names_of_methods(const std::function<bool(const Method&)>& belongs,
                                            std::string_view between = ", ");

@@ -150,22 +150,30 @@ struct SolveSettings {
     [[nodiscard]] MethodWork work() const { return method->work_with(options); }
 };
 
-/// The budget of each run of each method: one of the two.
+/// The budget of each run of each method: one of the three.
 struct Budget {
     std::optional<double> rays;                 ///< density rays included
     std::optional<double> seconds;              ///< time of its own, preprocessing included
+    std::optional<double> error;                ///< true error at which a run ends, relative [-]
     static constexpr double default_steps = 64; ///< steps of the mean rays per patch
+    /// A run that does not reach the error ends after so many times the default number of rays.
+    static constexpr double most_for_error = 64;
 };
 
 /// A method as `compare` names it: METHOD-VALUE is the method with this value of one of its
-/// options.
+/// options, METHOD:NAME=VALUE:NAME=VALUE with several.
 struct MethodVariant {
     std::string name;
     const Method* method = nullptr;
-    /// This is a value of one of its own options (MethodOption::makes_variants). It is empty where
-    /// the option is as given.
-    std::string option, value;
+    struct Setting {
+        std::string option, value; ///< the option's name with its dashes
+        [[nodiscard]] bool operator==(const Setting&) const = default;
+    };
+    /// What differs from the options as given.
+    std::vector<Setting> settings = {};
     [[nodiscard]] SolveOptions applied_to(SolveOptions options) const;
+    /// Returns the name as a part of a file's name.
+    [[nodiscard]] std::string file_name() const;
 };
 
 struct CompareSettings {
@@ -176,6 +184,7 @@ struct CompareSettings {
     std::uint32_t runs = 3;
     std::string reference;         ///< path of a patch table; empty: computed by `matrix`
     double reference_error = .002; ///< estimated error at which it is good enough, relative [-]
+    bool relative_mse = false;     ///< the table has this error, too
     bool total = false;            ///< errors are those of the light itself, division included
     ViewSettings view;
     Provenance from;                ///< provenance of the files

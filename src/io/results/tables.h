@@ -48,6 +48,7 @@ struct StepRow {
     StepRecord record{};
     std::optional<RelativeError> error{}; ///< error against a reference, if there is one
     std::optional<double> total_error{};  ///< error against the light itself (known_light.h)
+    std::optional<double> relative_mse{}; ///< Reference::relative_mse; the log does not have it
 };
 
 /// The names of a row's columns, with commas between them.

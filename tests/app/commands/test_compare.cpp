@@ -120,6 +120,65 @@ TEST_CASE("--total: methods side by side by the error of the light itself") {
             CHECK(std::stod(row[9]) > std::stod(row[6]));
 }
 
+TEST_CASE("a method is compared with itself by other options") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome = place.hemilux(
+        "compare room.obj -o a --methods hemisphere:depth=1,hemisphere:depth=3:threshold=2,"
+        "progressive-monte-carlo:rays=16 --runs 1 --budget-rays 20000 " +
+        quick);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const auto table = table_of(outcome.out);
+    CHECK(table.at("hemisphere:depth=1").back() !=
+          table.at("hemisphere:depth=3:threshold=2").back());
+    CHECK(place.has("a/hemisphere-depth-1.png"));
+    CHECK(place.has("a/hemisphere-depth-3-threshold-2_difference.png"));
+    // The same rows as a run with these options for all.
+    REQUIRE(place
+                .hemilux("compare room.obj -o b --methods hemisphere --depth 1 --runs 1 "
+                         "--budget-rays 20000 --reference a/reference.csv " +
+                         quick)
+                .code == 0);
+    const auto one = split(place.read("a/error.csv"), ','),
+               other = split(place.read("b/error.csv"), ',');
+    CHECK(one[1][3] == other[1][3]); // rays
+    CHECK(one[1][6] == other[1][6]); // true error
+    const std::string methods = "compare room.obj -o c --methods ";
+    check_fails(place, 1, methods + "hemisphere:dept=2", "did you mean 'depth'");
+    check_fails(place, 1, methods + "hemisphere:depth=9", "takes no depth=9");
+    check_fails(place, 1, methods + "hemispher:depth=2", "did you mean 'hemisphere'");
+    check_fails(place, 1, methods + "hemisphere:depth=2,hemisphere:depth=2", "named twice");
+    check_fails(place, 1, methods + "progressive:depth=2", "unknown option 'depth'");
+}
+
+TEST_CASE("runs end at an equal error, and relMSE is told where it is asked for") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome = place.hemilux(
+        "compare room.obj -o a --methods stratified,progressive-monte-carlo --runs 2 --rays 100 "
+        "--budget-error 5% --relative-mse " +
+        quick);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const auto table = table_of(outcome.out);
+    CHECK(table.at("method")[3] == "relMSE");
+    const auto rows = split(place.read("a/error.csv"), ',');
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+        const bool is_last =
+            k + 1 == rows.size() || rows[k + 1][0] != rows[k][0] || rows[k + 1][1] != rows[k][1];
+        CHECK((std::stod(rows[k][6]) <= .05) == is_last);
+    }
+    for (const char* method : {"stratified", "progressive-monte-carlo"}) {
+        CHECK(std::stod(table.at(method)[4]) <= 5);
+        // Of even light relMSE is about the square of the error.
+        const double error = std::stod(table.at(method)[4]) / 100;
+        CHECK(std::stod(table.at(method)[3]) > .1 * error * error);
+        CHECK(std::stod(table.at(method)[3]) < 10 * error * error);
+    }
+    check_fails(place, 1, "compare room.obj -o b --budget-error 5% --budget-time 3", "--budget");
+}
+
 TEST_CASE("the uncertainty of a gain from one run is unknown") {
     const Workplace place;
     place.write_room();

@@ -43,6 +43,10 @@ TEST_CASE("bake --bake ao needs no light, and binds it as occlusionTexture") {
         CHECK(object["texels"].get<int>() > 0);
     }
     CHECK(statistics["estimated_error_of"] == "gathered");
+    CHECK_THAT(run.err, !Contains("replaced"));
+    const auto again = place.hemilux("bake ao.glb --bake ao -o again.glb --lightmap 64");
+    CHECK(again.code == 0);
+    CHECK_THAT(again.err, Contains("an occlusionTexture") && Contains("replaced"));
     for (const std::string threads : {"1", "3"})
         REQUIRE(place
                     .hemilux("bake room.gltf --bake ao -q --lightmap 64 -o ao" + threads +

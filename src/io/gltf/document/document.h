@@ -75,6 +75,7 @@ struct MaterialInfo {
     double transmission = 0; ///< of what is covered [-] (KHR_materials_transmission)
     std::optional<TextureInfo> transmission_texture; ///< a factor of it, in red
     bool is_cut_out = false; ///< lets light through by the alpha of a texture, which is not read
+    bool has_occlusion = false; ///< by an occlusionTexture, which means nothing to the light
     bool double_sided = false;
     /// KHR_materials_unlit: the base colour is what it shows, whatever light arrives. Such a
     /// material has it as `emissive`, with its texture, and reflects nothing.

@@ -68,6 +68,7 @@ MaterialInfo read_material(const JsonValue& value, const Document& document) {
     MaterialInfo material;
     material.name = value.text_or("name", "");
     material.double_sided = value.flag_or("doubleSided", false);
+    material.has_occlusion = value.find("occlusionTexture").has_value();
     if (const auto metal = value.find("pbrMetallicRoughness")) {
         material.base_colour = read_colour<4>(*metal, "baseColorFactor", {1, 1, 1, 1});
         material.metallic = metal->number_or("metallicFactor", 1);
