@@ -25,7 +25,7 @@ CompareSettings settings_of(const std::vector<std::string>& names, const RunNumb
         RunNumbers of_method = numbers;
         of_method.literal = numbers.literal && method.has_literal;
         settings.options = settings_of(method, of_method).options;
-        settings.variants.push_back({name, &method, {}, {}});
+        settings.variants.push_back({name, &method});
     }
     settings.options.literal = numbers.literal;
     if (numbers.max_rays)

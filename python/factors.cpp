@@ -1,6 +1,6 @@
 // view_factors: the factors of the program's `viewfactors`, as the arrays of a sparse matrix.
 
-#include "app/commands/factor_run.h"
+#include "app/factors/factor_run.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/factor_aim.h"
 #include "python/parts.h"

@@ -1,7 +1,7 @@
 // The command-line program: hemilux SUBCOMMAND ...
 
 #include "app/command_line/config_words.h"
-#include "app/command_line/generated_texts.h"
+#include "app/command_line/generated/generated_texts.h"
 #include "app/command_line/options.h"
 #include "app/commands/commands.h"
 #include "app/memory/memory.h"

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <memory>
 
 namespace hemilux {
@@ -85,7 +84,7 @@ class Runner {
         if (done())
             return 1;
         if (budget_.error && !result_.rows.empty()) // rays go as the inverse square of the error
-            return std::min(.99, std::pow(*budget_.error / error(), 2));
+            return std::min(.99, *budget_.error / error() * (*budget_.error / error()));
         return std::min(1.0, used() / limit());
     }
     [[nodiscard]] const std::vector<Vec3>& radiosity() const {

@@ -57,7 +57,8 @@ std::vector<Vec3> wished_factors(const LampTable& table, const std::string& wish
         double light = 0, squares = 0;
         for (std::size_t k = 0; k < found.factor.size(); ++k) {
             light += found.factor[k] * place.brought[k];
-            squares += std::pow(found.factor[k] * place.error[k], 2);
+            const double error = found.factor[k] * place.error[k];
+            squares += error * error;
         }
         text += formatted("%.6g", place.wish) + "," + formatted("%.6g", light) + "," +
                 formatted("%.2g", std::sqrt(squares)) + "\n";

@@ -1,9 +1,9 @@
 // hemilux viewfactors: factors between surfaces, each with its standard error, closed.
 
 #include "app/commands/commands.h"
-#include "app/commands/factor_audit.h"
-#include "app/commands/factor_run.h"
-#include "app/commands/factor_surfaces.h"
+#include "app/factors/factor_audit.h"
+#include "app/factors/factor_run.h"
+#include "app/factors/factor_surfaces.h"
 #include "app/loading/load.h"
 #include "app/memory/memory.h"
 #include "app/running/signals.h"

@@ -1,8 +1,8 @@
 #include "radiosity/engine/stored_transport/linked_parts.h"
 
-#include "geometry/disjoint_sets.h"
 #include "radiosity/engine/form_factors/exchange_matrix.h"
 #include "radiosity/engine/form_factors/ray_counts.h"
+#include "radiosity/engine/sparse/disjoint_sets.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "radiosity/light/lamps/lamp_layers.h"
 
-#include "geometry/disjoint_sets.h"
 #include "radiosity/engine/rays/point_emitter.h"
+#include "radiosity/engine/sparse/disjoint_sets.h"
 #include "radiosity/light/textures/scene_textures.h"
 #include "radiosity/paper/scene/mesh.h"
 

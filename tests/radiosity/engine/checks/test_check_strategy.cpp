@@ -1,6 +1,6 @@
 // The checks of a strategy pass those that there are, and find what is wrong in those that are not
 // right.
-#include "radiosity/engine/shooting/check_strategy.h"
+#include "radiosity/engine/checks/check_strategy.h"
 #include "radiosity/engine/shooting/shooting.h"
 #include "support/catch.h"
 

@@ -1,4 +1,4 @@
-#include "app/commands/factor_surfaces.h"
+#include "app/factors/factor_surfaces.h"
 
 #include "app/settings/exit_code.h"
 #include "radiosity/paper/scene/mesh.h"

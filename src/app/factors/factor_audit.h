@@ -2,7 +2,7 @@
 // What is said of view factors that were computed: their errors, how far rows were from closed, and
 // surfaces that are probably turned.
 
-#include "app/commands/factor_surfaces.h"
+#include "app/factors/factor_surfaces.h"
 #include "app/settings/view_factor_settings.h"
 #include "radiosity/engine/view_factors/view_factors.h"
 

@@ -1,4 +1,4 @@
-#include "app/commands/factor_audit.h"
+#include "app/factors/factor_audit.h"
 
 #include "app/settings/text.h"
 #include "app/terminal/log.h"

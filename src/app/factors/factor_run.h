@@ -1,7 +1,7 @@
 #pragma once
 // Computes view factors to the error that was asked for, whichever factors it is of.
 
-#include "app/commands/factor_surfaces.h"
+#include "app/factors/factor_surfaces.h"
 #include "bvh/wide/wide_bvh.h"
 #include "radiosity/engine/view_factors/view_factors.h"
 

@@ -1,4 +1,4 @@
-#include "app/command_line/generated_texts.h"
+#include "app/command_line/generated/generated_texts.h"
 
 #include <set>
 #include <sstream>

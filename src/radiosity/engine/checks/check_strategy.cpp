@@ -1,4 +1,4 @@
-#include "radiosity/engine/shooting/check_strategy.h"
+#include "radiosity/engine/checks/check_strategy.h"
 
 #include "parallel/workers.h"
 #include "radiosity/engine/rays/make_tracer.h"
@@ -10,12 +10,16 @@
 #include "radiosity/paper/solution/solution.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
 
 namespace hemilux {
+
+extern const Method matrix_method; // engine/methods/matrix.cpp
+
 namespace {
 
 /// Adds the six sides of a box, which look inwards or outwards.
@@ -209,8 +213,7 @@ std::vector<std::string> check_strategy(const Method& method, unsigned threads) 
     check_light(closed.mesh, even, exact, "a closed room of one material", faults);
     const StopRule good{.steps = {}, .seconds = {}, .error = .002};
     check_light(lit.mesh, solve(method, lit, stop, 1, threads),
-                solve(*find_method("matrix"), lit, good, 2, threads), "a room with a block",
-                faults);
+                solve(matrix_method, lit, good, 2, threads), "a room with a block", faults);
     return faults.texts();
 }
 

@@ -1,6 +1,6 @@
-#include "app/commands/factor_run.h"
+#include "app/factors/factor_run.h"
 
-#include "app/commands/factor_audit.h"
+#include "app/factors/factor_audit.h"
 #include "parallel/workers.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
