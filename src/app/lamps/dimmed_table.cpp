@@ -121,7 +121,7 @@ std::vector<WishedPlace> LampTable::places(const std::string& wishes) const {
         const bool by_channel = row.size() == 4;
         for (int c = 0; c < (by_channel ? 3 : 1); ++c) {
             WishedPlace& place = places.emplace_back();
-            place.wish = numbers[std::size_t(1 + c)];
+            place.wish = numbers[std::size_t(c) + 1];
             for (const auto& [light, error] : layers_) {
                 const Vec3 brought = colour(point, light),
                            off = error == absent ? Vec3(0.0) : colour(point, error);

@@ -11,12 +11,6 @@
 namespace hemilux {
 namespace {
 
-constexpr int rows_per_chunk = 16; // of ZIP compression
-
-std::size_t bytes_of(const ExrChannel& channel) {
-    return channel.kind == ExrChannel::Kind::half ? 2 : 4;
-}
-
 std::string whole(int value) {
     std::string bytes;
     append_number(bytes, static_cast<std::uint32_t>(value));
@@ -103,18 +97,18 @@ void write_exr(const std::string& path, int width, int height, std::vector<ExrCh
     std::ranges::sort(channels, {}, &ExrChannel::name);
     const std::string head = header(width, height, channels, from);
     const auto columns = static_cast<std::size_t>(width);
-    const int chunk_count = (height + rows_per_chunk - 1) / rows_per_chunk;
+    const int chunk_count = (height + exr_rows_per_chunk - 1) / exr_rows_per_chunk;
     std::string offsets, chunks;
     const std::size_t begin = head.size() + sizeof(std::uint64_t) * std::size_t(chunk_count);
-    for (int first = 0; first < height; first += rows_per_chunk) {
-        const int end = std::min(first + rows_per_chunk, height);
+    for (int first = 0; first < height; first += exr_rows_per_chunk) {
+        const int end = std::min(first + exr_rows_per_chunk, height);
         std::string rows;
         rows.reserve(std::size_t(end - first) * columns * channels.size() * sizeof(float));
         for (std::size_t y = std::size_t(first); y < std::size_t(end); ++y)
             for (const ExrChannel& channel : channels)
                 for (std::size_t x = 0; x < columns; ++x) {
                     const std::uint32_t bits = channel.bits[y * columns + x];
-                    if (bytes_of(channel) == 2)
+                    if (channel.bytes() == 2)
                         append_number(rows, static_cast<std::uint16_t>(bits));
                     else
                         append_number(rows, bits);

@@ -4,6 +4,8 @@
 
 #include "io/pictures/image.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,7 +17,12 @@ struct ExrChannel {
     enum class Kind { number, whole, half } kind = Kind::number;
     /// The bits of a float or, in the lower 16, of a half; or the whole number itself.
     std::vector<std::uint32_t> bits;
+    /// Returns the bytes of one number in the file.
+    [[nodiscard]] std::size_t bytes() const { return kind == Kind::half ? 2 : 4; }
 };
+
+/// The rows that the format compresses together.
+inline constexpr int exr_rows_per_chunk = 16;
 
 /// Appends the three channels `layer`.R, .G and .B, or R, G and B for a layer without a name.
 void add_exr_channels(std::vector<ExrChannel>& channels, const std::string& layer,

@@ -16,7 +16,7 @@
 namespace hemilux {
 namespace {
 
-constexpr int rows_per_chunk = 16, max_side = 1 << 20;
+constexpr int max_side = 1 << 20;
 constexpr double max_numbers = 4e9; ///< of all channels
 
 /// Takes parts from the front of a file's bytes. Throws InputError where they end.
@@ -50,10 +50,6 @@ class Bytes {
     const std::string& path_;
     std::string_view left_;
 };
-
-std::size_t bytes_of(const ExrChannel& channel) {
-    return channel.kind == ExrChannel::Kind::half ? 2 : 4;
-}
 
 void read_channels(Bytes list, std::vector<ExrChannel>& channels) {
     for (std::string name = list.text(); !name.empty(); name = list.text()) {
@@ -124,9 +120,9 @@ void read_rows(const std::string& rows, int first, int end, ExrFile& file) {
     const char* at = rows.data();
     for (std::size_t y = std::size_t(first); y < std::size_t(end); ++y)
         for (ExrChannel& channel : file.channels)
-            for (std::size_t x = 0; x < columns; ++x, at += bytes_of(channel))
-                channel.bits[y * columns + x] = bytes_of(channel) == 2 ? bits_at<std::uint16_t>(at)
-                                                                       : bits_at<std::uint32_t>(at);
+            for (std::size_t x = 0; x < columns; ++x, at += channel.bytes())
+                channel.bits[y * columns + x] =
+                    channel.bytes() == 2 ? bits_at<std::uint16_t>(at) : bits_at<std::uint32_t>(at);
 }
 
 } // namespace
@@ -142,13 +138,13 @@ ExrFile read_exr(const std::string& path) {
     std::size_t bytes_per_row = 0;
     for (ExrChannel& channel : file.channels) {
         channel.bits.resize(std::size_t(file.width) * std::size_t(file.height));
-        bytes_per_row += bytes_of(channel) * std::size_t(file.width);
+        bytes_per_row += channel.bytes() * std::size_t(file.width);
     }
-    const int chunks = (file.height + rows_per_chunk - 1) / rows_per_chunk;
+    const int chunks = (file.height + exr_rows_per_chunk - 1) / exr_rows_per_chunk;
     bytes.take(sizeof(std::uint64_t) * std::size_t(chunks));
     for (int chunk = 0; chunk < chunks; ++chunk) {
-        const int first = chunk * rows_per_chunk,
-                  end = std::min(first + rows_per_chunk, file.height);
+        const int first = chunk * exr_rows_per_chunk,
+                  end = std::min(first + exr_rows_per_chunk, file.height);
         if (bytes.number() != first)
             bytes.refuse("expected its rows from above");
         const std::size_t size = bytes_per_row * std::size_t(end - first);

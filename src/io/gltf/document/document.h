@@ -74,7 +74,7 @@ struct MaterialInfo {
     double uncovered = 0;    ///< what alpha leaves open [-] (BLEND without a texture)
     double transmission = 0; ///< of what is covered [-] (KHR_materials_transmission)
     std::optional<TextureInfo> transmission_texture; ///< a factor of it, in red
-    bool is_cut_out = false; ///< lets light through by the alpha of a texture, which is not read
+    bool is_cut_out = false;    ///< lets light through by the alpha of a texture, which is not read
     bool has_occlusion = false; ///< by an occlusionTexture, which means nothing to the light
     bool double_sided = false;
     /// KHR_materials_unlit: the base colour is what it shows, whatever light arrives. Such a
