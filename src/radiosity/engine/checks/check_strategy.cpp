@@ -38,7 +38,7 @@ void add_box(Scene& scene, const Vec3& low, const Vec3& high, bool inwards,
                                                       {0, 4, 6, 2},
                                                       {1, 3, 7, 5}}}) {
         if (inwards)
-            std::ranges::reverse(side);
+            std::reverse(side.begin(), side.end());
         for (std::uint32_t& vertex : side)
             vertex += first;
         scene.facets.push_back({side, scene.faces++, material, 0});
