@@ -9,7 +9,6 @@
 #include "app/settings/extension.h"
 #include "app/settings/names.h"
 #include "app/settings/text.h"
-#include "app/terminal/log.h"
 #include "app/terminal/print.h"
 #include "io/files/error.h"
 #include "io/pictures/exr_reader.h"
@@ -78,27 +77,25 @@ std::vector<std::string> lamps_of(const ExrFile& file) {
     return {lamps.begin(), lamps.end()};
 }
 
-void write_dimmed(const Output& output, const DimSettings& settings, const ExrFile& file,
-                  const std::vector<std::string>& lamps, const std::vector<Vec3>& factors,
-                  double exposure) {
-    Image sum(file.width, file.height);
+/// A picture by other powers: of all lamps, and the channels of each.
+struct DimmedPicture {
+    Image sum;
     std::vector<ExrChannel> channels;
+};
+
+DimmedPicture dimmed(const ExrFile& file, const std::vector<std::string>& lamps,
+                     const std::vector<Vec3>& factors) {
+    DimmedPicture found{Image(file.width, file.height), {}};
     for (std::size_t k = 0; k < lamps.size(); ++k) {
         Image layer = image_of(file, lamps[k]);
-        for (std::size_t pixel = 0; pixel < sum.pixels.size(); ++pixel) {
+        for (std::size_t pixel = 0; pixel < layer.pixels.size(); ++pixel) {
             layer.pixels[pixel] *= glm::vec3(factors[k]);
-            sum.pixels[pixel] += layer.pixels[pixel];
+            found.sum.pixels[pixel] += layer.pixels[pixel];
         }
-        if (output.kind == OutputKind::exr)
-            add_exr_channels(channels, lamps[k], layer);
+        add_exr_channels(found.channels, lamps[k], layer);
     }
-    if (output.kind != OutputKind::exr) {
-        ViewSettings view = settings.view;
-        view.exposure = view.exposure.value_or(exposure);
-        return write_picture(output, sum, view, settings.from);
-    }
-    add_exr_channels(channels, "", sum);
-    write_exr(output.path, sum.width, sum.height, std::move(channels), settings.from);
+    add_exr_channels(found.channels, "", found.sum);
+    return found;
 }
 
 /// Returns the exit code.
@@ -118,10 +115,15 @@ int dim_picture(const DimSettings& settings) {
     const std::vector<std::string> lamps = lamps_of(file);
     if (lamps.empty())
         throw InputError(settings.input, "has no layers of lamps; solve --layers writes them");
-    const std::vector<Vec3> factors = factors_of(settings.powers, lamps);
-    const double exposure = auto_exposure(image_of(file, ""));
+    const DimmedPicture picture = dimmed(file, lamps, factors_of(settings.powers, lamps));
+    ViewSettings view = settings.view; // shown as the picture with all lamps as they were
+    if (!view.exposure)
+        view.exposure = auto_exposure(image_of(file, ""));
     return write_all(settings, [&](const Output& output) {
-        write_dimmed(output, settings, file, lamps, factors, exposure);
+        if (output.kind == OutputKind::exr)
+            write_exr(output.path, file.width, file.height, picture.channels, settings.from);
+        else
+            write_picture(output, picture.sum, view, settings.from);
     });
 }
 

@@ -11,6 +11,7 @@
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/solving/shared_stop.h"
+#include "radiosity/light/light_error/division_error.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -28,18 +29,6 @@ constexpr std::size_t max_layers = 64;
 /// A layer is gathered to this relative error of its own at the most, however faint it is.
 constexpr double max_layer_error = .1;
 
-/// Returns the sum over patches of area and squared reflected light, and of squared errors.
-std::pair<double, double> squares_of(const Mesh& mesh, const Relit& light) {
-    double reflected = 0, errors = 0;
-    for (std::uint32_t i = 0; i < light.radiosity.size(); ++i) {
-        const Vec3 own = light.radiosity[i] - mesh.material(i).emission;
-        reflected += mesh.patches()[i].area * glm::dot(own, own);
-        errors +=
-            mesh.patches()[i].area * glm::dot(light.standard_error[i], light.standard_error[i]);
-    }
-    return {reflected, errors};
-}
-
 /// Returns the solution of a layer.
 Solution solution_of(const Solution& whole, const Relit& layer) {
     Solution own = whole;
@@ -50,46 +39,31 @@ Solution solution_of(const Solution& whole, const Relit& layer) {
     return own;
 }
 
-/// Makes the parts of all layers add up to the whole.
-class Shares {
-  public:
-    explicit Shares(const LampLayers& lamps) : lamps_(lamps) {
-        for (const LampLayer& layer : lamps.layers)
-            all_ += layer.power;
+/// Returns the error of a layer on patches, relative to the light that it reflects; NaN where that
+/// is none.
+double error_on_patches(const Mesh& mesh, const LampPatches& light, std::size_t layer) {
+    const Relit& part = light.patches[layer];
+    double reflected = 0, errors = 0;
+    for (std::uint32_t i = 0; i < part.radiosity.size(); ++i) {
+        const Vec3 own = part.radiosity[i] - emission_in(mesh, light.lamps, layer, i);
+        const Vec3& error = part.standard_error[i];
+        reflected += mesh.patches()[i].area * glm::dot(own, own);
+        errors += mesh.patches()[i].area * glm::dot(error, error);
     }
-    /// part(layer) is one of the layers' colours.
-    template <class Colour, class Part>
-    void add_up(const Colour& whole, const Part& part) const {
-        const std::size_t layers = lamps_.layers.size();
-        for (int c = 0; c < 3; ++c) {
-            double sum = 0;
-            for (std::size_t k = 0; k < layers; ++k)
-                sum += double(part(k)[c]);
-            for (std::size_t k = 0; k < layers; ++k) {
-                auto& own = part(k)[c];
-                const double share = sum > 0       ? double(own) / sum
-                                     : all_[c] > 0 ? lamps_.layers[k].power[c] / all_[c]
-                                                   : 0;
-                own = static_cast<std::remove_reference_t<decltype(own)>>(share * double(whole[c]));
-            }
-        }
-    }
-
-  private:
-    const LampLayers& lamps_;
-    Vec3 all_{0.0};
-};
+    return reflected > 0 ? std::sqrt(errors / reflected) : Statistics::unknown;
+}
 
 /// part(lamp) is an image of the size of the whole.
 template <class Part>
-void add_up(const Shares& shares, const Image& whole, std::vector<GatheredLamp>& lamps,
+void add_up(const LampShares& shares, const Image& whole, std::vector<GatheredLamp>& lamps,
             const Part& part) {
     for (std::size_t pixel = 0; pixel < whole.pixels.size(); ++pixel)
         shares.add_up(whole.pixels[pixel],
                       [&](std::size_t k) -> glm::vec3& { return part(lamps[k]).pixels[pixel]; });
 }
 
-void add_up(const Shares& shares, const LightAtPoints& whole, std::vector<GatheredLamp>& lamps) {
+void add_up(const LampShares& shares, const LightAtPoints& whole,
+            std::vector<GatheredLamp>& lamps) {
     const std::size_t points = whole.lights.size();
     for (GatheredLamp& lamp : lamps)
         lamp.points.resize(points);
@@ -140,13 +114,9 @@ bool Layers::find_patches(const Relighting& rays) {
         found_.patches.push_back(std::move(*light));
     }
     share_whole(mesh, run_.solution, found_);
-    for (std::uint32_t k = 0; k < found_.lamps.layers.size(); ++k) {
-        const auto [reflected, errors] =
-            squares_of(lit_by_layer(mesh, found_.lamps, k), found_.patches[k]);
+    for (std::size_t k = 0; k < found_.patches.size(); ++k) {
         const LampLayer& layer = found_.lamps.layers[k];
-        statistics_.layers.push_back(
-            {layer.name, layer.power,
-             reflected > 0 ? std::sqrt(errors / reflected) : Statistics::unknown});
+        statistics_.layers.push_back({layer.name, layer.power, error_on_patches(mesh, found_, k)});
     }
     return true;
 }
@@ -178,12 +148,11 @@ bool Layers::gather() {
     });
     if (!gathers(settings))
         return true;
-    const double all_squares =
-        squares_of(scene.mesh, {solution.radiosity, solution.standard_error, {}}).first;
+    const double all_squares = reflected_square(scene.mesh, solution);
     for (std::uint32_t k = 0; k < found_.patches.size(); ++k) {
         const Mesh lit = lit_by_layer(scene.mesh, found_.lamps, k);
         const Solution own = solution_of(solution, found_.patches[k]);
-        settings.stop.error = error_of(squares_of(lit, found_.patches[k]).first, all_squares);
+        settings.stop.error = error_of(reflected_square(lit, own), all_squares);
         Statistics statistics;
         GatheredLight light =
             gather_light(settings, {lit, scene.tracer, own.radiosity, scene.threads}, own, points,
@@ -195,7 +164,7 @@ bool Layers::gather() {
         found_.gathered[k] = {std::move(light.points.lights), std::move(light.picture),
                               std::move(light.lightmaps)};
     }
-    const Shares shares(found_.lamps);
+    const LampShares shares(found_.lamps);
     add_up(shares, gathered.points, found_.gathered);
     if (gathered.picture && found_.gathered[0].picture)
         add_up(shares, *gathered.picture, found_.gathered,

@@ -8,6 +8,7 @@
 #include <tuple>
 
 namespace hemilux {
+
 void join_charts(const Mesh& mesh, std::vector<PlacedTriangle>& triangles) {
     using End = std::tuple<double, double, double, double, double>;
     std::map<End, std::uint32_t> at;

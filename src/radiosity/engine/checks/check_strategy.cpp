@@ -14,6 +14,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 namespace hemilux {
@@ -95,7 +96,7 @@ class Faults {
         if (!holds && std::ranges::find(texts_, text) == texts_.end())
             texts_.push_back(text);
     }
-    [[nodiscard]] std::vector<std::string> texts() { return std::move(texts_); }
+    [[nodiscard]] const std::vector<std::string>& texts() const { return texts_; }
 
   private:
     std::vector<std::string> texts_;
@@ -106,16 +107,19 @@ struct Power {
     double given, due;
 };
 
-Power power_of(const Strategy& strategy, const Hemisphere& hemisphere, const Mesh& mesh,
-               std::uint32_t patch, std::uint16_t cell) {
+/// Returns nothing for a cell that is neither of the hemisphere nor private.
+std::optional<Power> power_of(const Strategy& strategy, const Hemisphere& hemisphere,
+                              const Mesh& mesh, std::uint32_t patch, std::uint16_t cell) {
     const PrivateCells* const own = strategy.private_cells();
     if (const auto found = own ? own->private_cell(patch, cell) : std::nullopt)
-        return {found->power, found->shape.projected_solid_angle() / std::numbers::pi *
-                                  found->origins.area() / mesh.patches()[patch].area};
+        return Power{found->power, found->shape.projected_solid_angle() / std::numbers::pi *
+                                       found->origins.area() / mesh.patches()[patch].area};
     if (cell == whole_hemisphere)
-        return {1, 1};
+        return Power{1, 1};
+    if (cell >= hemisphere.cells().size())
+        return std::nullopt;
     const double due = hemisphere.cells()[cell].projected_solid_angle / std::numbers::pi;
-    return {due, due};
+    return Power{due, due};
 }
 
 void check_allocation(const Strategy& strategy, const Hemisphere& hemisphere, const Mesh& mesh,
@@ -129,19 +133,15 @@ void check_allocation(const Strategy& strategy, const Hemisphere& hemisphere, co
         return;
     double power = 0, rays = 0;
     for (std::size_t k = 0; k < found.cells.size(); ++k) {
-        const std::uint16_t cell = found.cells[k];
-        const PrivateCells* const own = strategy.private_cells();
-        const bool is_known = cell == whole_hemisphere || cell < hemisphere.cells().size() ||
-                              (own && own->private_cell(patch, cell));
-        faults.add(is_known, "a cell is neither of the hemisphere nor private");
-        if (!is_known)
+        const auto of = power_of(strategy, hemisphere, mesh, patch, found.cells[k]);
+        faults.add(of.has_value(), "a cell is neither of the hemisphere nor private");
+        if (!of)
             continue;
-        const Power of = power_of(strategy, hemisphere, mesh, patch, cell);
-        faults.add(std::abs(of.given - of.due) <= rounding,
+        faults.add(std::abs(of->given - of->due) <= rounding,
                    "a cell has not the power of Lambert's law");
         faults.add(found.rays(k) >= 0, "a cell has less than no rays");
-        faults.add(of.given <= 0 || found.rays(k) > 0, "a cell with power has no rays");
-        power += of.given;
+        faults.add(of->given <= 0 || found.rays(k) > 0, "a cell with power has no rays");
+        power += of->given;
         rays += found.rays(k);
     }
     faults.add(std::abs(power - 1) <= rounding,
@@ -199,9 +199,8 @@ std::vector<std::string> check_strategy(const Method& method, unsigned threads) 
     for (const Room* const room : {&closed, &lit})
         check_allocations(method, *room, faults);
     check_allocations(method, open_scene(), faults);
-    std::vector<std::string> texts = faults.texts();
-    if (!method.unbiased || !texts.empty())
-        return texts;
+    if (!method.unbiased || !faults.texts().empty())
+        return faults.texts();
     constexpr std::uint32_t steps = 64;
     const StopRule stop{.steps = steps, .seconds = {}, .error = {}};
     Solution even = solve(method, closed, stop, 1, threads), exact = even;

@@ -22,9 +22,8 @@ TracerWithPanes::TracerWithPanes(std::unique_ptr<Tracer> facets, const Mesh& mes
     : facets_(std::move(facets)), panes_(mesh) {}
 
 /// Returns whether a ray passes the panes before a facet at distance t.
-bool TracerWithPanes::goes_through(Ray ray, double t) const {
-    ray.t_max = t;
-    const double share = panes_.passed(ray);
+bool TracerWithPanes::goes_through(const Ray& ray, double t) const {
+    const double share = passed_up_to(ray, t);
     return share == 1 || number_of(ray) < share;
 }
 

@@ -38,7 +38,7 @@ class TracerWithPanes final : public Tracer {
     [[nodiscard]] const Tracer& of_facets() const override { return *facets_; }
 
   private:
-    [[nodiscard]] bool goes_through(Ray ray, double t) const;
+    [[nodiscard]] bool goes_through(const Ray& ray, double t) const;
 
     std::unique_ptr<Tracer> facets_;
     PaneCrossings panes_;

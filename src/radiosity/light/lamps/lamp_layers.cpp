@@ -1,5 +1,6 @@
 #include "radiosity/light/lamps/lamp_layers.h"
 
+#include "geometry/numeric.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/engine/sparse/disjoint_sets.h"
 #include "radiosity/light/textures/scene_textures.h"
@@ -133,37 +134,41 @@ Mesh lit_by_layer(const Mesh& mesh, const LampLayers& layers, std::uint32_t laye
     return lit;
 }
 
-void share_whole(const Mesh& mesh, const Solution& whole, LampPatches& light) {
-    const auto& [lamps, parts] = light;
-    Vec3 all_power(0.0);
+Vec3 emission_in(const Mesh& mesh, const LampLayers& lamps, std::size_t layer,
+                 std::uint32_t patch) {
+    return layer == lamps.of_facet[mesh.patches()[patch].facet] ? mesh.material(patch).emission
+                                                                : Vec3(0.0);
+}
+
+LampShares::LampShares(const LampLayers& lamps) {
+    Vec3 all(0.0);
     for (const LampLayer& layer : lamps.layers)
-        all_power += layer.power;
+        all += layer.power;
+    for (const LampLayer& layer : lamps.layers)
+        of_power_.push_back(ratio_or_zero(layer.power, all));
+}
+
+void share_whole(const Mesh& mesh, const Solution& whole, LampPatches& light) {
+    const LampShares shares(light.lamps);
     for (Relit& part : light.patches)
         part.slope.resize(whole.slope.size());
+    std::vector<Vec3> parts(light.patches.size());
     for (std::uint32_t i = 0; i < whole.radiosity.size(); ++i) {
-        const Vec3& emission = mesh.material(i).emission;
-        const std::uint32_t own = lamps.of_facet[mesh.patches()[i].facet];
-        const auto emitted_by = [&](std::size_t layer) {
-            return layer == own ? emission : Vec3(0.0);
-        };
+        const Vec3 reflected = whole.radiosity[i] - mesh.material(i).emission;
         Vec3 found(0.0);
-        for (std::size_t layer = 0; layer < parts.size(); ++layer)
-            found += parts[layer].radiosity[i] - emitted_by(layer);
-        const Vec3 reflected = whole.radiosity[i] - emission;
-        for (std::size_t layer = 0; layer < parts.size(); ++layer) {
-            Relit& part = light.patches[layer];
-            Vec3 share(0.0);
-            for (int c = 0; c < 3; ++c) {
-                const double brought = part.radiosity[i][c] - emitted_by(layer)[c];
-                if (found[c] > 0)
-                    share[c] = brought / found[c];
-                else if (all_power[c] > 0)
-                    share[c] = lamps.layers[layer].power[c] / all_power[c];
-                part.standard_error[i][c] *= found[c] > 0 ? reflected[c] / found[c] : 0;
-            }
-            part.radiosity[i] = emitted_by(layer) + share * reflected;
-            if (!whole.slope.empty())
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            parts[k] = light.patches[k].radiosity[i] - emission_in(mesh, light.lamps, k, i);
+            found += parts[k];
+        }
+        shares.add_up(reflected, [&](std::size_t k) -> Vec3& { return parts[k]; });
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            Relit& part = light.patches[k];
+            part.radiosity[i] = emission_in(mesh, light.lamps, k, i) + parts[k];
+            part.standard_error[i] *= ratio_or_zero(reflected, found);
+            if (!whole.slope.empty()) {
+                const Vec3 share = ratio_or_zero(parts[k], reflected);
                 part.slope[i] = {share * whole.slope[i].x, share * whole.slope[i].y};
+            }
         }
     }
 }

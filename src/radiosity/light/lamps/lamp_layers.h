@@ -5,9 +5,10 @@
 #include "geometry/vector.h"
 #include "radiosity/engine/solving/relighting.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace hemilux {
@@ -37,6 +38,34 @@ struct LampLayers {
 /// Returns the mesh with the light of one layer alone. All else, patches and facets included, is as
 /// it was, so a tracer of the mesh serves both.
 [[nodiscard]] Mesh lit_by_layer(const Mesh& mesh, const LampLayers& layers, std::uint32_t layer);
+
+/// Returns what a patch emits in a layer [W/m2].
+[[nodiscard]] Vec3 emission_in(const Mesh& mesh, const LampLayers& lamps, std::size_t layer,
+                               std::uint32_t patch);
+
+/// Makes the parts of layers add up to a whole, each channel by itself. Where all parts are 0 the
+/// layers share the whole by their power.
+class LampShares {
+  public:
+    explicit LampShares(const LampLayers& lamps);
+    /// part(layer) is a reference to one of the layers' colours.
+    template <class Colour, class Part>
+    void add_up(const Colour& whole, const Part& part) const {
+        for (int c = 0; c < 3; ++c) {
+            double sum = 0;
+            for (std::size_t k = 0; k < of_power_.size(); ++k)
+                sum += double(part(k)[c]);
+            for (std::size_t k = 0; k < of_power_.size(); ++k) {
+                auto& own = part(k)[c];
+                const double share = sum > 0 ? double(own) / sum : of_power_[k][c];
+                own = static_cast<std::remove_reference_t<decltype(own)>>(share * double(whole[c]));
+            }
+        }
+    }
+
+  private:
+    std::vector<Vec3> of_power_; ///< by layer: its share of the power of all, by channel
+};
 
 /// The light of patches by each lamp.
 struct LampPatches {
