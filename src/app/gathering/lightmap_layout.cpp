@@ -70,7 +70,7 @@ std::vector<ChartSide> fronts_of_file(const Mesh& mesh, const gltf::LitSource& s
 }
 
 /// Returns what is wrong with places of the file; empty where nothing is.
-std::string fault_of(const gltf::PlacesOfFile& places, const Mesh& mesh, int size,
+std::string fault_of(const PlacesOfFile& places, const Mesh& mesh, int size,
                      std::vector<PlacedTriangle>& in_texels) {
     const Scene& scene = mesh.scene();
     if (!places.without.empty())
@@ -201,11 +201,8 @@ ObjectLightmap LayoutFinder::find(const LitObj& file, int size) {
     if (bake_.set.value_or(0) > 0)
         throw InputError(file.path(), "an OBJ file has one set of texture coordinates; "
                                       "--lightmap-uv 0 takes that, and new an atlas");
-    if ((!file.places().empty() || bake_.set) && takes(found, "vt", size, [&] {
-            PlacesOfObj places = places_in_obj(file, mesh_, sides);
-            return gltf::PlacesOfFile{std::move(places.triangles), std::move(places.without),
-                                      std::move(places.outside)};
-        }))
+    if ((!file.places().empty() || bake_.set) &&
+        takes(found, "vt", size, [&] { return places_in_obj(file, mesh_, sides); }))
         return found;
     new_coordinates_ = file.places().empty() ? "vt" : "vt in place of those of the file";
     make_own(found, sides, size);

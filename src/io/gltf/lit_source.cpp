@@ -7,7 +7,6 @@
 #include "io/gltf/instances.h"
 #include "io/gltf/scene_meshes.h"
 #include "io/lightmaps/chart_regions.h"
-#include "io/lightmaps/joined_charts.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
@@ -40,11 +39,6 @@ std::string file_of(const ImageInfo& image, const std::string& scene, const std:
 /// Returns which corner of a facet is this vertex of the scene.
 std::size_t corner_of(const Facet& facet, std::uint32_t vertex) {
     return static_cast<std::size_t>(std::ranges::find(facet.vertex, vertex) - facet.vertex.begin());
-}
-
-void add_once(std::vector<std::uint32_t>& groups, std::uint32_t group) {
-    if (std::ranges::find(groups, group) == groups.end())
-        groups.push_back(group);
 }
 
 } // namespace
@@ -166,7 +160,6 @@ std::vector<CornerNormals> normals_of_file(LitSource& source, const Mesh& mesh) 
 
 PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh, std::span<const ChartSide> sides,
                            std::size_t set, std::span<const std::size_t> origins) {
-    constexpr double rounding = 1e-5;
     const Scene& scene = mesh.scene();
     std::vector<std::uint32_t> side_of(scene.facets.size(), none);
     for (std::uint32_t s = 0; s < sides.size(); ++s)
@@ -182,25 +175,16 @@ PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh, std::span<const 
                 continue;
             const Facet& facet = scene.facets[f];
             if (triangles.texcoords.size() <= set) {
-                add_once(found.without, facet.group);
+                found.add_without(facet.group);
                 continue;
             }
             PlacedTriangle placed{f, sides[side_of[f]].back, false, 0, {}};
-            bool is_outside = false;
-            for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t k = 0; k < 3; ++k)
                 placed.place[k] = triangles.texcoords[set][facet.vertex[k] - origin.first_vertex];
-                const auto [x, y] = std::pair(placed.place[k].x, placed.place[k].y);
-                is_outside =
-                    is_outside || !(std::min(x, y) >= -rounding && std::max(x, y) <= 1 + rounding);
-            }
-            if (cross(placed.place[1] - placed.place[0], placed.place[2] - placed.place[0]) == 0)
-                add_once(found.without, facet.group);
-            if (is_outside)
-                add_once(found.outside, facet.group);
-            found.triangles.push_back(placed);
+            found.add(placed, facet.group);
         }
     }
-    join_charts(mesh, found.triangles);
+    found.join_charts(mesh);
     return found;
 }
 

@@ -6,6 +6,7 @@
 #include "io/gltf/elements.h"
 #include "io/gltf/primitives.h"
 #include "io/lightmaps/chart_regions.h"
+#include "io/lightmaps/file_places.h"
 #include "io/lightmaps/smooth_point.h"
 #include "io/lightmaps/texel_map.h"
 #include "io/scene_files/read_result.h"
@@ -81,12 +82,6 @@ class LitSource {
 /// looks the other way in the scene are turned around. Throws as LitSource::normals_of().
 [[nodiscard]] std::vector<CornerNormals> normals_of_file(LitSource& source, const Mesh& mesh);
 
-/// The places of triangles in the texture coordinates that a file has.
-struct PlacesOfFile {
-    std::vector<PlacedTriangle> triangles; ///< places in [0,1]
-    /// Groups of facets, each once: those without coordinates, and with places beyond [0,1].
-    std::vector<std::uint32_t> without, outside;
-};
 /// Returns the places of these sides in a set of the file, as far as they are of the origins with
 /// these numbers. Charts are triangles that meet in the set as they do on the surface.
 [[nodiscard]] PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh,

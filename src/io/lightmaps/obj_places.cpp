@@ -1,6 +1,5 @@
 #include "io/lightmaps/obj_places.h"
 
-#include "io/lightmaps/joined_charts.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
@@ -11,8 +10,6 @@
 
 namespace hemilux {
 namespace {
-
-constexpr double rounding = 1e-5;
 
 /// Returns which corner of its face has this vertex; none where it is not one alone.
 std::optional<std::size_t> corner_with(std::span<const LitObj::Corner> corners,
@@ -30,11 +27,6 @@ std::optional<std::size_t> corner_with(std::span<const LitObj::Corner> corners,
 /// Returns the corners of a facet that a triangle of it has.
 std::array<std::size_t, 3> corners_of_half(bool second) {
     return second ? std::array<std::size_t, 3>{0, 2, 3} : std::array<std::size_t, 3>{0, 1, 2};
-}
-
-void add_once(std::vector<std::uint32_t>& groups, std::uint32_t group) {
-    if (std::ranges::find(groups, group) == groups.end())
-        groups.push_back(group);
 }
 
 /// Numbers places as they are first used, each once for a vertex and a chart.
@@ -63,8 +55,8 @@ std::size_t any_corner_with(std::span<const LitObj::Corner> corners, std::uint32
 
 } // namespace
 
-PlacesOfObj places_in_obj(const LitObj& file, const Mesh& mesh, std::span<const ChartSide> sides) {
-    PlacesOfObj found;
+PlacesOfFile places_in_obj(const LitObj& file, const Mesh& mesh, std::span<const ChartSide> sides) {
+    PlacesOfFile found;
     for (const ChartSide& side : sides) {
         const Facet& facet = mesh.scene().facets[side.facet];
         const std::span<const LitObj::Corner> corners = file.corners_of(facet.face);
@@ -72,28 +64,23 @@ PlacesOfObj places_in_obj(const LitObj& file, const Mesh& mesh, std::span<const 
             if (second && facet.is_triangle())
                 continue;
             PlacedTriangle placed{side.facet, side.back, second, side.facet, {}};
-            bool is_outside = false, is_there = true;
+            bool is_there = true;
             const auto half = corners_of_half(second);
-            for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t k = 0; is_there && k < 3; ++k) {
                 const auto corner = corner_with(corners, facet.vertex[half[k]]);
-                is_there = is_there && corner && corners[*corner].place < file.places().size();
+                is_there = corner && corners[*corner].place < file.places().size();
                 if (!is_there)
-                    break;
+                    continue;
                 const Vec2 place(file.places()[corners[*corner].place]);
                 placed.place[k] = {place.x, 1 - place.y};
-                is_outside = is_outside || !(std::min(place.x, place.y) >= -rounding &&
-                                             std::max(place.x, place.y) <= 1 + rounding);
             }
-            if (!is_there ||
-                cross(placed.place[1] - placed.place[0], placed.place[2] - placed.place[0]) == 0)
-                add_once(found.without, facet.group);
-            if (is_outside)
-                add_once(found.outside, facet.group);
             if (is_there)
-                found.triangles.push_back(placed);
+                found.add(placed, facet.group);
+            else
+                found.add_without(facet.group);
         }
     }
-    join_charts(mesh, found.triangles);
+    found.join_charts(mesh);
     return found;
 }
 

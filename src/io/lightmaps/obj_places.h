@@ -3,6 +3,7 @@
 // an atlas that becomes those of the same file.
 
 #include "io/lightmaps/chart_regions.h"
+#include "io/lightmaps/file_places.h"
 #include "io/lightmaps/smooth_point.h"
 #include "io/lightmaps/texel_map.h"
 #include "io/scene_files/lit_obj.h"
@@ -14,16 +15,10 @@
 
 namespace hemilux {
 
-/// The places of triangles in the texture coordinates of the file. `vt` counts upwards from the
-/// lower edge of the picture, places downwards from the upper one.
-struct PlacesOfObj {
-    std::vector<PlacedTriangle> triangles; ///< places in [0,1]
-    /// Groups of facets, each once: those without coordinates, and with places beyond [0,1]. A face
-    /// that names a vertex twice counts as one without.
-    std::vector<std::uint32_t> without, outside;
-};
-[[nodiscard]] PlacesOfObj places_in_obj(const LitObj& file, const Mesh& mesh,
-                                        std::span<const ChartSide> sides);
+/// Returns the places of these sides. `vt` counts upwards from the lower edge of the picture,
+/// places downwards from the upper one. A face that names a vertex twice counts as one without.
+[[nodiscard]] PlacesOfFile places_in_obj(const LitObj& file, const Mesh& mesh,
+                                         std::span<const ChartSide> sides);
 
 /// Returns the text of the file with the places of these triangles [0,1] as `vt`. A face whose
 /// pieces lie in several charts is written as several faces.

@@ -71,7 +71,7 @@ TEST_CASE("places of an OBJ file count from above, and what lacks them is named"
     std::vector<ChartSide> sides;
     for (std::uint32_t f = 0; f < mesh.scene().facets.size(); ++f)
         sides.push_back({f, false});
-    const PlacesOfObj found = places_in_obj(file, mesh, sides);
+    const PlacesOfFile found = places_in_obj(file, mesh, sides);
     REQUIRE(found.triangles.size() == 3);
     CHECK(found.triangles[0].place[0] == Vec2(0, 1));
     CHECK(found.triangles[0].place[2] == Vec2(1, 0));

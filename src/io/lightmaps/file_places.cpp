@@ -1,15 +1,38 @@
-#include "io/lightmaps/joined_charts.h"
+#include "io/lightmaps/file_places.h"
 
 #include "radiosity/engine/sparse/disjoint_sets.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <tuple>
 
 namespace hemilux {
+namespace {
 
-void join_charts(const Mesh& mesh, std::vector<PlacedTriangle>& triangles) {
+void add_once(std::vector<std::uint32_t>& groups, std::uint32_t group) {
+    if (std::ranges::find(groups, group) == groups.end())
+        groups.push_back(group);
+}
+
+} // namespace
+
+void PlacesOfFile::add(const PlacedTriangle& triangle, std::uint32_t group) {
+    constexpr double rounding = 1e-5;
+    const auto& place = triangle.place;
+    if (cross(place[1] - place[0], place[2] - place[0]) == 0)
+        add_without(group);
+    if (!std::ranges::all_of(place, [](const Vec2& p) {
+            return std::min(p.x, p.y) >= -rounding && std::max(p.x, p.y) <= 1 + rounding;
+        }))
+        add_once(outside, group);
+    triangles.push_back(triangle);
+}
+
+void PlacesOfFile::add_without(std::uint32_t group) { add_once(without, group); }
+
+void PlacesOfFile::join_charts(const Mesh& mesh) {
     using End = std::tuple<double, double, double, double, double>;
     std::map<End, std::uint32_t> at;
     DisjointSets joined(triangles.size());
