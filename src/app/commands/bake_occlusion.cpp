@@ -4,6 +4,7 @@
 #include "app/gathering/lightmap_layout.h"
 #include "app/gathering/lit_file_output.h"
 #include "app/loading/load_geometry.h"
+#include "app/running/mesh_output.h"
 #include "app/running/results.h"
 #include "app/running/run_files.h"
 #include "app/running/signals.h"

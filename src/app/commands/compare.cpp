@@ -211,7 +211,7 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
                                 needs,
                                 loaded.warnings,
                                 mean_light(mesh, reference->radiosity),
-                                loaded.bytes_needed};
+                                loaded.need.all()};
     if (settings.reference.empty()) {
         const WriteReport report = write_reference(comparison);
         report.log(settings.verbosity);

@@ -42,7 +42,7 @@ struct Comparison {
     const Needs& needs;
     std::span<const std::string> warnings; ///< messages of reading the scene
     double unit;                           ///< unit of the light on a page [W/m2]
-    double bytes_needed = 0;               ///< LoadedMesh::bytes_needed
+    double bytes_needed = 0;               ///< MemoryNeed::all()
 };
 
 /// Runs the methods. `after_step` gets the share of all runs that is done, 0 to 1. `fault` becomes

@@ -104,6 +104,15 @@ double bytes_of_table(const PatchTable& table) {
     return bytes_per_row * static_cast<double>(table.area.size());
 }
 
+/// Returns how many texels all lightmaps have together.
+double texels_of_lightmaps(const SolveSettings& settings, const FileLightmap& file) {
+    const double side = settings.file_bake.asked ? 0 : settings.lightmap.value_or(0);
+    double texels = side * side;
+    for (const ObjectLightmap& part : file.parts)
+        texels += double(part.layout.size) * part.layout.size;
+    return texels;
+}
+
 /// Reads the files of the run; checks its options first, and then what they are for this scene.
 Loaded load(SolveSettings settings) {
     const RunFiles files = check_files(settings);
@@ -137,12 +146,16 @@ Loaded load(SolveSettings settings) {
                                                                                : Verbosity::quiet);
     check_camera(settings.view, mesh, settings.scene.path);
     check_lightmap(settings, mesh);
-    check_layers(settings, mesh);
     check_own_options(settings.options, methods, mesh.patches().size());
     check_plain(settings, mesh.patches().size());
     FileLightmap file_lightmap;
     if (settings.file_bake.asked)
         file_lightmap = lightmaps_to_write(settings, mesh, scene.origins, scene.warnings);
+    check_layers(settings, mesh,
+                 {.patches = double(mesh.patches().size()),
+                  .points = double(points.size()),
+                  .texels = texels_of_lightmaps(settings, file_lightmap)},
+                 scene.need);
     (void)detail_mask(mesh, settings.detail); // names only groups of the scene
     return {std::move(settings),      std::move(resumed),   std::move(points),
             std::move(target_points), std::move(reference), std::move(scene),
@@ -162,7 +175,7 @@ Problem build(Loaded loaded, Monitor& monitor, InterruptGuard& guard) {
     const SolveSettings& settings = problem.settings();
     problem.prepared = prepare(problem.loaded.scene, settings.options, settings.verbosity);
     problem.options =
-        with_memory(settings.options, settings.scene, problem.loaded.scene.bytes_needed);
+        with_memory(settings.options, settings.scene, problem.loaded.scene.need.all());
     guard.watch(monitor.interrupted.own().wished);
     log_line(settings.verbosity, Verbosity::verbose,
              tracer_text(problem.prepared.made.tree, problem.prepared.seconds));

@@ -29,16 +29,6 @@ constexpr std::size_t max_layers = 64;
 /// A layer is gathered to this relative error of its own at the most, however faint it is.
 constexpr double max_layer_error = .1;
 
-/// Returns the solution of a layer.
-Solution solution_of(const Solution& whole, const Relit& layer) {
-    Solution own = whole;
-    own.radiosity = layer.radiosity;
-    own.standard_error = layer.standard_error;
-    own.slope = layer.slope;
-    own.variance.reset();
-    return own;
-}
-
 /// Returns the error of a layer on patches, relative to the light that it reflects; NaN where that
 /// is none.
 double error_on_patches(const Mesh& mesh, const LampPatches& light, std::size_t layer) {
@@ -53,23 +43,14 @@ double error_on_patches(const Mesh& mesh, const LampPatches& light, std::size_t 
     return reflected > 0 ? std::sqrt(errors / reflected) : Statistics::unknown;
 }
 
-/// part(lamp) is an image of the size of the whole.
-template <class Part>
-void add_up(const LampShares& shares, const Image& whole, std::vector<GatheredLamp>& lamps,
-            const Part& part) {
-    for (std::size_t pixel = 0; pixel < whole.pixels.size(); ++pixel)
-        shares.add_up(whole.pixels[pixel],
-                      [&](std::size_t k) -> glm::vec3& { return part(lamps[k]).pixels[pixel]; });
-}
-
 void add_up(const LampShares& shares, const LightAtPoints& whole,
-            std::vector<GatheredLamp>& lamps) {
+            std::vector<std::vector<PointLight>>& parts) {
     const std::size_t points = whole.lights.size();
-    for (GatheredLamp& lamp : lamps)
-        lamp.points.resize(points);
+    for (std::vector<PointLight>& part : parts)
+        part.resize(points);
     for (std::size_t point = 0; point < points; ++point)
         shares.add_up(whole.lights[point].irradiance,
-                      [&](std::size_t k) -> Vec3& { return lamps[k].points[point].irradiance; });
+                      [&](std::size_t k) -> Vec3& { return parts[k][point].irradiance; });
 }
 
 class Layers {
@@ -132,11 +113,19 @@ double Layers::error_of(double squares, double all_squares) const {
 
 bool Layers::gather() {
     const auto& [scene, solver, solution, gathered, points, camera, lightmaps] = run_;
-    found_.gathered.resize(found_.patches.size());
     if (!gathered.cache)
         return true;
+    found_.lightmaps.resize(gathered.lightmaps.size());
+    const auto keep = [&](std::vector<PointLight> lights, std::optional<Image> picture,
+                          std::vector<Image> maps) {
+        found_.points.push_back(std::move(lights));
+        if (picture)
+            found_.pictures.push_back(std::move(*picture));
+        for (std::size_t map = 0; map < maps.size(); ++map)
+            found_.lightmaps[map].push_back(std::move(maps[map]));
+    };
     if (found_.patches.size() == 1) {
-        found_.gathered[0] = {gathered.points.lights, gathered.picture, gathered.lightmaps};
+        keep(gathered.points.lights, gathered.picture, gathered.lightmaps);
         statistics_.layers[0].error = gathered.error;
         return true;
     }
@@ -161,17 +150,14 @@ bool Layers::gather() {
             return false;
         statistics_.rays_layers += statistics.rays_learn + statistics.rays_gather;
         statistics_.layers[k].error = light.error;
-        found_.gathered[k] = {std::move(light.points.lights), std::move(light.picture),
-                              std::move(light.lightmaps)};
+        keep(std::move(light.points.lights), std::move(light.picture), std::move(light.lightmaps));
     }
     const LampShares shares(found_.lamps);
-    add_up(shares, gathered.points, found_.gathered);
-    if (gathered.picture && found_.gathered[0].picture)
-        add_up(shares, *gathered.picture, found_.gathered,
-               [](GatheredLamp& lamp) -> Image& { return *lamp.picture; });
-    for (std::size_t map = 0; map < gathered.lightmaps.size(); ++map)
-        add_up(shares, gathered.lightmaps[map], found_.gathered,
-               [map](GatheredLamp& lamp) -> Image& { return lamp.lightmaps[map]; });
+    add_up(shares, gathered.points, found_.points);
+    if (!found_.pictures.empty())
+        add_up(shares, *gathered.picture, found_.pictures);
+    for (std::size_t map = 0; map < found_.lightmaps.size(); ++map)
+        add_up(shares, gathered.lightmaps[map], found_.lightmaps[map]);
     return true;
 }
 
@@ -200,7 +186,8 @@ void check_layers(const SolveSettings& settings) {
                          " keeps the rays that other lamps would take, and not with --plain");
 }
 
-void check_layers(const SolveSettings& settings, const Mesh& mesh) {
+void check_layers(const SolveSettings& settings, const Mesh& mesh, const LayerSize& size,
+                  MemoryNeed& need) {
     if (!settings.layers)
         return;
     const std::size_t layers = find_lamp_layers(mesh, *settings.layers).layers.size();
@@ -209,6 +196,9 @@ void check_layers(const SolveSettings& settings, const Mesh& mesh) {
     if (layers > max_layers)
         throw UsageError("--layers: " + grouped(layers) + " are more than " + grouped(max_layers) +
                          "; --layers material and --layers group join lamps");
+    need.results += bytes_of_layers(settings, need, size, layers);
+    check_memory(need, settings.scene.memory, settings.scene.path,
+                 "--layers material and --layers group join lamps");
 }
 
 LampLight find_lamp_light(const SolveSettings& settings, const LitRun& run, Monitor& monitor,
@@ -229,6 +219,21 @@ LampLight find_lamp_light(const SolveSettings& settings, const LitRun& run, Moni
     statistics.seconds_layers = watch.seconds();
     log_line(settings.verbosity, Verbosity::normal, errors_text(statistics.layers));
     return layers.result();
+}
+
+Solution solution_of(const Solution& whole, const Relit& layer) {
+    Solution own = whole;
+    own.radiosity = layer.radiosity;
+    own.standard_error = layer.standard_error;
+    own.slope = layer.slope;
+    own.variance.reset();
+    return own;
+}
+
+void add_up(const LampShares& shares, const Image& whole, std::span<Image> parts) {
+    for (std::size_t pixel = 0; pixel < whole.pixels.size(); ++pixel)
+        shares.add_up(whole.pixels[pixel],
+                      [&](std::size_t k) -> glm::vec3& { return parts[k].pixels[pixel]; });
 }
 
 std::vector<std::string> channel_names(const LampLayers& lamps) {

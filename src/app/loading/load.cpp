@@ -236,7 +236,7 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                       std::move(read.face_lines),
                       view_of_file(settings.path, read),
                       std::move(read.warnings),
-                      need.all(),
+                      need,
                       std::move(read.origins)};
     if (!loaded.mesh.all_layers_are_offset())
         warn(loaded,

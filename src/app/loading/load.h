@@ -1,6 +1,7 @@
 #pragma once
 // The way from a path on the command line to a scene that can be solved.
 
+#include "app/memory/memory.h"
 #include "app/settings/settings.h"
 #include "io/files/error.h"
 #include "io/scene_files/read_result.h"
@@ -49,7 +50,7 @@ struct LoadedMesh {
     std::vector<std::uint32_t> face_lines; ///< ReadResult
     FileView view;
     std::vector<std::string> warnings;         ///< warnings that were logged
-    double bytes_needed = 0;                   ///< MemoryNeed::all()
+    MemoryNeed need = {};                      ///< as it was checked against --memory
     std::vector<PrimitiveOrigin> origins = {}; ///< ReadResult
 };
 

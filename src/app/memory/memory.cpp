@@ -46,10 +46,15 @@ constexpr double bytes_per_pixel = 36, bytes_per_compared_pixel = 64;
 constexpr double bytes_per_gathered_pixel = 118;
 /// The bytes per pixel of the layers of an .exr file, and of the file.
 constexpr double bytes_per_layered_pixel = 60;
+/// The bytes per pixel or texel of a layer of --layers: its light, and that of the file.
+constexpr double bytes_per_pixel_of_layer = 40;
+/// The bytes of a point of --points, and of its light in a layer.
+constexpr double bytes_per_point = 256, bytes_per_point_of_layer = 64;
 
 /// The bytes per patch of what is written, with what is made for it.
 namespace of_patch {
 constexpr double table = 50, mesh = 200, vtu = 550, report = 430;
+constexpr double layer = 200; ///< light, errors and slopes, and what is written of them
 constexpr double state = 300, copies_of_state = 3; ///< of a checkpoint
 } // namespace of_patch
 
@@ -201,7 +206,7 @@ double bytes_of_lightmap(int size, bool gathered) {
 }
 
 double bytes_of_points(std::size_t points, unsigned gather) {
-    constexpr double bytes_per_point = 256, bytes_per_ray = 16, rays_per_block = 1 << 20;
+    constexpr double bytes_per_ray = 16, rays_per_block = 1 << 20;
     const double rays_per_point = double(gather) * PointSettings::rays_per_gather_ray;
     const auto count = static_cast<double>(points);
     return bytes_per_point * count +
@@ -229,6 +234,21 @@ double bytes_of_results(const SolveSettings& settings, double patches) {
     return bytes +
            (has_picture ? bytes_of_picture(settings.view.size, settings.gather_pictures) : 0) +
            (has_layers ? bytes_per_layered_pixel * pixels : 0);
+}
+
+double bytes_of_layers(const SolveSettings& settings, const MemoryNeed& run, const LayerSize& size,
+                       std::size_t layers) {
+    const auto is_exr = [](const Output& output) { return output.kind == OutputKind::exr; };
+    const bool has_picture = std::ranges::any_of(settings.outputs, is_exr);
+    const double pixels =
+        has_picture ? double(settings.view.size.width) * settings.view.size.height : 0;
+    const double of_layer = of_patch::layer * size.patches +
+                            bytes_per_point_of_layer * size.points +
+                            bytes_per_pixel_of_layer * (pixels + size.texels);
+    // One layer at a time is lit and gathered, on a copy of all that the run has.
+    return double(layers) * of_layer + run.scene + run.mesh + bytes_per_solution * size.patches +
+           (has_picture ? bytes_of_picture(settings.view.size, settings.gather_pictures) : 0) +
+           bytes_of_points(static_cast<std::size_t>(size.points), settings.rays_of_gather());
 }
 
 double bytes_of_compared_pictures(PixelSize size) {

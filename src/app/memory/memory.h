@@ -60,6 +60,14 @@ struct MemoryNeed {
 [[nodiscard]] double bytes_of_lightmap(int size, bool gathered);
 /// Returns the bytes of so many points of --points, while their light is gathered and written.
 [[nodiscard]] double bytes_of_points(std::size_t points, unsigned gather);
+/// What a layer of --layers has light of.
+struct LayerSize {
+    double patches = 0, points = 0;
+    double texels = 0; ///< of all lightmaps
+};
+/// Returns the bytes of so many layers of --layers, besides the run whose light they share.
+[[nodiscard]] double bytes_of_layers(const SolveSettings& settings, const MemoryNeed& run,
+                                     const LayerSize& size, std::size_t layers);
 
 /// Returns a check while the file is read, which throws std::runtime_error once that takes more
 /// than the limit; without one, more than the machine has.

@@ -66,16 +66,15 @@ Image picture_of(const Image& light, const std::vector<std::uint32_t>& patches, 
 
 } // namespace
 
-void add_lamp_channels(std::vector<ExrChannel>& channels, const LampLight& lamps,
-                       const std::function<const Image*(const GatheredLamp&)>& image_of) {
-    const std::vector<std::string> names = channel_names(lamps.lamps);
-    for (std::size_t k = 0; k < lamps.gathered.size(); ++k)
-        if (const Image* const image = image_of(lamps.gathered[k]))
-            add_exr_channels(channels, names[k], *image);
+void add_lamp_channels(std::vector<ExrChannel>& channels, const LampLayers& lamps,
+                       std::span<const Image> images) {
+    const std::vector<std::string> names = channel_names(lamps);
+    for (std::size_t k = 0; k < images.size(); ++k)
+        add_exr_channels(channels, names[k], images[k]);
 }
 
 std::vector<ExrChannel> picture_layers(const Results& results, const Image& light,
-                                       const Camera& camera) {
+                                       std::span<const Image> lamps, const Camera& camera) {
     const Solution& solution = results.solution;
     const PictureTime time(results.monitor.interrupted.own().wished);
     RenderOptions options =
@@ -102,9 +101,7 @@ std::vector<ExrChannel> picture_layers(const Results& results, const Image& ligh
                 std::bit_cast<std::uint32_t>(i == no_patch ? 0.0f : static_cast<float>(means[i])));
         channels.push_back(std::move(density));
     }
-    add_lamp_channels(channels, results.lamps, [](const GatheredLamp& lamp) {
-        return lamp.picture ? &*lamp.picture : nullptr;
-    });
+    add_lamp_channels(channels, results.lamps.lamps, lamps);
     channels.push_back({"patch", ExrChannel::Kind::whole, patches});
     return channels;
 }

@@ -3,26 +3,21 @@
 #include "app/gathering/lit_file_output.h"
 #include "app/gathering/point_table.h"
 #include "app/gathering/shown_camera.h"
-#include "app/loading/load.h"
 #include "app/rendering/view.h"
 #include "app/report/report_page.h"
 #include "app/running/error_map.h"
 #include "app/running/layered_picture.h"
+#include "app/running/mesh_output.h"
 #include "app/terminal/log.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
-#include "io/lightmaps/lightmap.h"
-#include "io/meshes/glb.h"
-#include "io/meshes/indirect_light.h"
 #include "io/meshes/vtu.h"
-#include "io/pictures/automatic_camera.h"
 #include "io/pictures/exr.h"
 #include "io/pictures/image.h"
 #include "io/results/smooth.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/densities/density.h"
 #include "radiosity/engine/shooting/guide.h"
-#include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <mutex>
@@ -63,7 +58,7 @@ class Picture {
             throw Interrupted();
         if (output.kind == OutputKind::exr)
             write_exr(output.path, image_->width, image_->height,
-                      picture_layers(results_, *image_, camera_), from);
+                      picture_layers(results_, *image_, of_lamps(), camera_), from);
         else
             write_picture(output, *image_, view_, from);
     }
@@ -75,20 +70,35 @@ class Picture {
         if (gathers_ && !results_.gathered.picture)
             log_line(verbosity, Verbosity::quiet,
                      "interrupted; pictures show the light of the patches");
-        Image image = results_.gathered.picture && gathers_ ? *results_.gathered.picture
-                                                            : interpolated(scene);
+        Image image = results_.gathered.picture && gathers_
+                          ? *results_.gathered.picture
+                          : interpolated(scene, results_.solution);
         choose_exposure(view_, image, scene, camera_);
         return image;
     }
 
     /// After a signal there is little time: one place stands for a pixel.
-    [[nodiscard]] Image interpolated(const LitScene& scene) {
+    [[nodiscard]] Image interpolated(const LitScene& scene, const Solution& solution) {
         RenderOptions options = picture_options(view_.size, scene.threads, time_);
         if (results_.monitor.interrupted)
             options.samples = 1;
         options.classes = &classes_.get();
-        options.slope = results_.solution.slope;
+        options.slope = solution.slope;
         return render_view(scene, camera_, options);
+    }
+
+    /// Returns the picture by each lamp, in its layer.
+    [[nodiscard]] std::vector<Image> of_lamps() {
+        const LampLight& light = results_.lamps;
+        if (light.patches.empty() || !light.pictures.empty())
+            return light.pictures;
+        std::vector<Image> images =
+            of_each_layer(results_, [&](const Mesh& lit, const Solution& own) {
+                return interpolated({lit, results_.tracer, own.radiosity, results_.options.threads},
+                                    own);
+            });
+        add_up(LampShares(light.lamps), *image_, images);
+        return images;
     }
 
     ViewSettings view_;
@@ -123,82 +133,14 @@ csv::MoreColumns columns_of_patches(const Results& results) {
 /// Returns the columns of layers, of the irradiance at points.
 csv::MoreColumns columns_of_points(const LampLight& light) {
     csv::MoreColumns columns;
-    for (std::size_t k = 0; k < light.gathered.size(); ++k) {
-        const std::vector<PointLight>& points = light.gathered[k].points;
+    for (std::size_t k = 0; k < light.points.size(); ++k) {
+        const std::vector<PointLight>& points = light.points[k];
         const std::string& name = light.lamps.layers[k].name;
         columns.colours.push_back({name, [&](std::size_t i) { return points[i].irradiance; }});
         columns.colours.push_back(
             {name + ".stderr", [&](std::size_t i) { return points[i].standard_error; }});
     }
     return columns;
-}
-
-std::vector<Vec3> indirect_light(unsigned gather, const Results& results) {
-    const unsigned rays = SolveSettings::bake_rays_per_gather_ray * gather;
-    const PictureTime time(results.monitor.interrupted.own().wished);
-    return indirect_irradiance(results.mesh, results.tracer, results.solution.radiosity, rays,
-                               hash_words({results.options.seed, 4}),
-                               Workers(results.options.threads), [&] { return time.is_over(); });
-}
-
-/// Returns the axis that is upwards; reported where z was guessed.
-int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
-    const int up = known ? *known : guess_up(mesh);
-    if (!known && up == 2)
-        log_line(verbosity, Verbosity::normal, "z is taken as upwards; --up y takes y");
-    return up;
-}
-
-void add_lightmaps_of_lamps(std::vector<ExrChannel>& channels, const LampLight& lamps,
-                            std::size_t number) {
-    add_lamp_channels(channels, lamps, [number](const GatheredLamp& lamp) -> const Image* {
-        return number < lamp.lightmaps.size() ? &lamp.lightmaps[number] : nullptr;
-    });
-}
-
-/// Writes a .glb file and its lightmap, each as an attempt of its own: neither's failure takes the
-/// other.
-void write_lightmapped(const SolveSettings& settings, const std::string& path,
-                       const Results& results, const CornerClasses& classes, VertexLight light,
-                       int up, WriteReport& report) {
-    const Mesh& mesh = results.mesh;
-    const std::vector<Image>& gathered = results.gathered.lightmaps;
-    const int size = *settings.lightmap;
-    const std::vector<LightmapChart> charts = find_charts(mesh, size); // which fit: check_lightmap
-    const ChartCorners corners = divide_by_charts(mesh, classes, charts);
-    std::vector<Vec3> of_class;
-    std::vector<Vec2> texcoords;
-    for (std::size_t k = 0; k < corners.class_of.size(); ++k) {
-        of_class.push_back(light.of_class[corners.class_of[k]]);
-        texcoords.push_back(corners.place[k] / double(size));
-    }
-    light.of_class = std::move(of_class);
-    report.attempt(lightmap_path(path), [&] {
-        std::vector<ExrChannel> channels;
-        add_half_exr_channels(channels, gathered.empty()
-                                            ? lightmap(charts, corners, light.of_class, size)
-                                            : gathered.front());
-        add_lightmaps_of_lamps(channels, results.lamps, 0);
-        write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
-    });
-    write_glb(path, mesh, corners.classes, light, settings.from, up, texcoords);
-}
-
-void write_mesh(const SolveSettings& settings, const Output& output, const Results& results,
-                const CornerClasses& classes, WriteReport& report) {
-    VertexLight light{
-        settings.bake == Bake::indirect
-            ? smooth(results.mesh, classes, indirect_light(settings.rays_of_gather(), results))
-            : baked_light(results.mesh, classes, results.solution, settings.bake),
-        settings.bake};
-    light.display = display_of(settings.view, results.mesh, classes, light.of_class);
-    if (output.kind == OutputKind::ply)
-        return write_ply(output.path, results.mesh, classes, light, settings.ply_colours);
-    const int up = up_axis(settings.view.up, results.mesh, settings.verbosity);
-    if (settings.lightmap)
-        write_lightmapped(settings, output.path, results, classes, light, up, report);
-    else
-        write_glb(output.path, results.mesh, classes, light, settings.from, up);
 }
 
 void write_gathered_file(const SolveSettings& settings, const std::string& path,
@@ -258,20 +200,6 @@ void write_report(const SolveSettings& settings, const Results& results) {
 }
 
 } // namespace
-
-void write_lightmaps(const SolveSettings& settings, const std::string& path,
-                     const FileLightmap& file, std::span<const Image> lightmaps,
-                     WriteReport& report, const LampLight& lamps) {
-    const std::vector<std::string> paths = lightmap_paths(path, file);
-    for (std::size_t k = 0; k < paths.size(); ++k)
-        report.attempt(paths[k], [&] {
-            const Image& light = lightmaps[k];
-            std::vector<ExrChannel> channels;
-            add_half_exr_channels(channels, light);
-            add_lightmaps_of_lamps(channels, lamps, k);
-            write_exr(paths[k], light.width, light.height, std::move(channels), settings.from);
-        });
-}
 
 bool shows_statistics(const SolveSettings& settings) {
     return settings.verbosity != Verbosity::quiet || !settings.statistics.empty() ||

@@ -41,11 +41,6 @@ struct Results {
     }
 };
 
-/// Writes the lightmaps of `bake` beside the .glb file at this path, each as an attempt of its own.
-void write_lightmaps(const SolveSettings& settings, const std::string& path,
-                     const FileLightmap& file, std::span<const Image> lightmaps,
-                     WriteReport& report, const LampLight& lamps = {});
-
 /// Returns whether anything that is written or said holds the statistics of the run.
 [[nodiscard]] bool shows_statistics(const SolveSettings& settings);
 

@@ -127,6 +127,30 @@ TEST_CASE("layers of all outputs add up to the whole, which is as without them")
     CHECK(place.read("c.csv") == place.read("d.csv"));
 }
 
+TEST_CASE("layers of light that is not gathered add up to the whole") {
+    const Workplace place;
+    write_two_lamps(place);
+    const std::string bake = GENERATE("--bake radiosity", "--bake indirect");
+    REQUIRE(place
+                .hemilux(solve + view +
+                         "--no-gather -o a.exr -o b.glb --lightmap 64 --divide none " + bake)
+                .code == 0);
+    const ExrFile picture = hemilux::read_exr(place.path("a.exr"));
+    const ExrFile lightmap = hemilux::read_exr(place.path("b.lightmap.exr"));
+    CHECK(largest_difference(sum(picture, 1, 1), image_of(picture, "")) < 1e-6);
+    constexpr double of_a_half = 1. / 1024;
+    CHECK(largest_difference(sum(lightmap, 1, 1), image_of(lightmap, "")) < of_a_half);
+    // The desk's lamp is blue, and the other is not.
+    const auto blue_over_red = [](const hemilux::Image& image) {
+        glm::dvec3 all(0.0);
+        for (const glm::vec3& pixel : image.pixels)
+            all += pixel;
+        return all.b / all.r;
+    };
+    for (const ExrFile* const file : {&picture, &lightmap})
+        CHECK(blue_over_red(image_of(*file, "desk")) > 3 * blue_over_red(image_of(*file, "lamp")));
+}
+
 TEST_CASE("dim gives lamps other powers, as a run with these does") {
     const Workplace place;
     write_two_lamps(place);

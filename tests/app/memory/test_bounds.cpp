@@ -201,6 +201,29 @@ TEST_CASE("many points take no more than the least --memory that lets them begin
                             "--points-output light.csv");
 }
 
+TEST_CASE("no run with --layers takes more memory than the least that lets it begin", "[slow]") {
+    const Workplace place;
+    place.write_room();
+    std::string room = place.read("room.obj"), rows;
+    for (int lamp = 0; lamp < 12; ++lamp) {
+        const std::string x0 = std::to_string(.1 + .06 * lamp),
+                          x1 = std::to_string(.14 + .06 * lamp);
+        room += "v " + x0 + " .5 .01\nv " + x1 + " .5 .01\nv " + x1 + " .54 .01\nv " + x0 +
+                " .54 .01\n";
+        room += "g desk" + std::to_string(lamp) + "\nusemtl lamp\nf -4 -3 -2 -1\n";
+    }
+    place.write("room.obj", room);
+    for (int k = 0; k < 50'000; ++k)
+        rows += ".5 .5 .5 0 0 1\n";
+    place.write("p.txt", rows);
+    const std::string picture = "--divide none --size 256x256 -o a.exr " + test::camera_in_room;
+    const std::string output =
+        GENERATE_COPY(picture + "--gather 1", picture + "--no-gather", "--max-edge .02 -o a.csv",
+                      "--max-edge .02 --report r.html", "--divide none --lightmap 256 -o a.glb",
+                      "--divide none --points p.txt --points-output light.csv");
+    check_some_bound(place, "solve room.obj --layers lamp -q --max-rays 200000 " + output);
+}
+
 TEST_CASE("no picture takes more memory than the least --memory that lets it begin", "[slow]") {
     const Workplace place;
     place.write_room();
