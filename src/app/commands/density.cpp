@@ -188,7 +188,7 @@ double bytes_of_drawings(const DensitySettings& settings, double patches) {
         bytes += per_triangle * triangles + per_ray * settings.rays;
     }
     if (!std::ranges::all_of(settings.outputs, is_svg))
-        bytes += bytes_of_picture(settings.view.size, false) +
+        bytes += bytes_of_picture(settings.view.size, false, 1) +
                  per_pixel * double(settings.view.size.width) * settings.view.size.height;
     return bytes;
 }

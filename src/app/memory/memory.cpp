@@ -2,6 +2,7 @@
 
 #include "app/settings/text.h"
 #include "io/files/input_file.h"
+#include "parallel/workers.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/layers/coplanar_overlaps.h"
 #include "radiosity/light/textures/scene_textures.h"
@@ -41,9 +42,10 @@ constexpr double bytes_of_analysis = 350;
 /// or its numbers once more and a file that grows. For `compare` there are the reference, the
 /// method and their difference.
 constexpr double bytes_per_pixel = 36, bytes_per_compared_pixel = 64;
-/// The bytes for the light of a pixel in its parts and of more surfaces at edges, and for a quarter
-/// of a point at which indirect light is gathered.
-constexpr double bytes_per_gathered_pixel = 118;
+/// The bytes for a quarter of a point at which indirect light is gathered. In the rows that a
+/// thread has at once, there are those for the light of a pixel in its parts, and of more surfaces
+/// at edges.
+constexpr double bytes_per_gathered_pixel = 56, bytes_per_pixel_of_rows = 120, rows_per_thread = 36;
 /// The bytes per pixel of the layers of an .exr file, and of the file.
 constexpr double bytes_per_layered_pixel = 60;
 /// The bytes per pixel or texel of a layer of --layers: its light, and that of the file.
@@ -193,9 +195,13 @@ SolveOptions with_memory(SolveOptions options, const SceneSettings& scene, doubl
     return options;
 }
 
-double bytes_of_picture(PixelSize size, bool gathered) {
-    return (bytes_per_pixel + (gathered ? bytes_per_gathered_pixel : 0)) *
-           static_cast<double>(size.width) * size.height;
+double bytes_of_picture(PixelSize size, bool gathered, unsigned threads) {
+    const double width = size.width, height = size.height;
+    const double rows = std::min(height, rows_per_thread * Workers(threads).threads());
+    return bytes_per_pixel * width * height +
+           (gathered
+                ? bytes_per_gathered_pixel * width * height + bytes_per_pixel_of_rows * width * rows
+                : 0);
 }
 
 double bytes_of_lightmap(int size, bool gathered) {
@@ -232,7 +238,9 @@ double bytes_of_results(const SolveSettings& settings, double patches) {
             (patches * of_patch::state + bytes_of(*settings.method, settings.options, patches));
     const double pixels = static_cast<double>(settings.view.size.width) * settings.view.size.height;
     return bytes +
-           (has_picture ? bytes_of_picture(settings.view.size, settings.gather_pictures) : 0) +
+           (has_picture ? bytes_of_picture(settings.view.size, settings.gather_pictures,
+                                           settings.options.threads)
+                        : 0) +
            (has_layers ? bytes_per_layered_pixel * pixels : 0);
 }
 
@@ -247,7 +255,9 @@ double bytes_of_layers(const SolveSettings& settings, const MemoryNeed& run, con
                             bytes_per_pixel_of_layer * (pixels + size.texels);
     // One layer at a time is lit and gathered, on a copy of all that the run has.
     return double(layers) * of_layer + run.scene + run.mesh + bytes_per_solution * size.patches +
-           (has_picture ? bytes_of_picture(settings.view.size, settings.gather_pictures) : 0) +
+           (has_picture ? bytes_of_picture(settings.view.size, settings.gather_pictures,
+                                           settings.options.threads)
+                        : 0) +
            bytes_of_points(static_cast<std::size_t>(size.points), settings.rays_of_gather());
 }
 

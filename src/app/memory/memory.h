@@ -54,7 +54,7 @@ struct MemoryNeed {
 [[nodiscard]] double bytes_of_results(const SolveSettings& settings, double patches);
 /// Return the bytes at the peak of writing a picture of so many pixels, or for `compare` all of its
 /// pictures.
-[[nodiscard]] double bytes_of_picture(PixelSize size, bool gathered);
+[[nodiscard]] double bytes_of_picture(PixelSize size, bool gathered, unsigned threads);
 [[nodiscard]] double bytes_of_compared_pictures(PixelSize size);
 /// Returns the bytes of a lightmap with so many texels along a side, while it is made and written.
 [[nodiscard]] double bytes_of_lightmap(int size, bool gathered);

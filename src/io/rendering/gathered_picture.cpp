@@ -56,7 +56,7 @@ class GatheredPicture {
     GatheredPicture(const Mesh& mesh, const VisibleFacets& visible, const PictureGather& gather,
                     std::span<const Vec2> offsets, int width, int height)
         : mesh_(mesh), visible_(visible), gather_(gather), offsets_(offsets), image_(width, height),
-          whole_(image_.pixels.size()), parts_(static_cast<std::size_t>(height)) {}
+          rows_(static_cast<std::size_t>(height)) {}
 
     [[nodiscard]] Image render(const std::function<void()>& check, const Workers& workers);
 
@@ -73,34 +73,57 @@ class GatheredPicture {
         int x;
         Part part;
     };
+    /// What a row shows.
+    struct Row {
+        std::vector<Part> whole;       ///< by pixel; share 0 where it shows nothing or several
+        std::vector<NarrowPart> parts; ///< from left to right
+    };
+    [[nodiscard]] Row& row(int y) { return rows_[static_cast<std::size_t>(y)]; }
+    [[nodiscard]] const Row& row(int y) const { return rows_[static_cast<std::size_t>(y)]; }
     void gather_band(const VisibleFacets::Band& band, int first, int end);
+    void add_direct_light(int y);
     [[nodiscard]] glm::vec3 direct_light(const Part& part, int x, int y) const;
 
     const Mesh& mesh_;
     const VisibleFacets& visible_;
     const PictureGather& gather_;
     std::span<const Vec2> offsets_;
-    Image image_;             ///< all but direct light at first
-    std::vector<Part> whole_; ///< by pixel; share 0 where it shows nothing or several
-    std::vector<std::vector<NarrowPart>> parts_; ///< by row, from left to right
+    Image image_;           ///< all but direct light at first
+    std::vector<Row> rows_; ///< empty before a row is gathered, and once no window reaches it
 };
 
+/// Gathers some bands, and adds the direct light of the rows whose windows are known then. Few rows
+/// are kept at a time.
 Image GatheredPicture::render(const std::function<void()>& check, const Workers& workers) {
-    visible_.for_each_band(workers, check,
+    const int bands_at_once = 4 * static_cast<int>(workers.threads());
+    int lit = 0; // so many rows have their direct light
+    for (int from = 0; from < visible_.bands(); from += bands_at_once) {
+        const int to = std::min(from + bands_at_once, visible_.bands());
+        visible_.for_bands(from, to, workers, check,
                            [&](const VisibleFacets::Band& band, int first, int end) {
                                gather_band(band, first, end);
                            });
-    workers.for_chunks(parts_.size(), 8, [&](std::size_t begin, std::size_t end) {
-        check();
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-            for (int x = 0; x < image_.width; ++x)
-                if (const Part& whole = whole_[image_.index(x, y)]; whole.share > 0)
-                    image_.at(x, y) += direct_light(whole, x, y);
-            for (const auto& [x, part] : parts_[static_cast<std::size_t>(y)])
-                image_.at(x, y) += part.share * direct_light(part, x, y);
-        }
-    });
+        const int known = to == visible_.bands() ? image_.height
+                                                 : to * VisibleFacets::rows_per_band - half_window;
+        workers.for_chunks(static_cast<std::size_t>(known - lit), 8,
+                           [&](std::size_t begin, std::size_t end) {
+                               check();
+                               for (std::size_t k = begin; k < end; ++k)
+                                   add_direct_light(lit + static_cast<int>(k));
+                           });
+        for (int y = std::max(lit - half_window, 0); y < known - half_window; ++y)
+            row(y) = {};
+        lit = known;
+    }
     return std::move(image_);
+}
+
+void GatheredPicture::add_direct_light(int y) {
+    for (int x = 0; x < image_.width; ++x)
+        if (const Part& whole = row(y).whole[static_cast<std::size_t>(x)]; whole.share > 0)
+            image_.at(x, y) += direct_light(whole, x, y);
+    for (const auto& [x, part] : row(y).parts)
+        image_.at(x, y) += part.share * direct_light(part, x, y);
 }
 
 /// Pixels are visited square by square: those near each other share what they have in common.
@@ -113,6 +136,8 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first, in
     };
     std::vector<Shown> shown;
     std::vector<PictureGather::Place> places;
+    for (int y = first; y < end; ++y)
+        row(y).whole.resize(static_cast<std::size_t>(image_.width));
     const auto visit = [&](int x, int y) {
         visible_.visit_pixel(
             band, x, y, false,
@@ -145,9 +170,9 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first, in
         image_.at(x, y) += part.share * (glm::vec3(colours.emission) +
                                          reflectance * (slow.indirect + glm::vec3(of_points)));
         if (places[k].count == offsets_.size())
-            whole_[image_.index(x, y)] = part;
+            row(y).whole[static_cast<std::size_t>(x)] = part;
         else
-            parts_[static_cast<std::size_t>(y)].push_back({x, part});
+            row(y).parts.push_back({x, part});
     }
 }
 
@@ -169,16 +194,16 @@ glm::vec3 GatheredPicture::direct_light(const Part& part, int x, int y) const {
     };
     const int left = std::max(x - half_window, 0),
               right = std::min(x + half_window, image_.width - 1);
-    for (int row = std::max(y - half_window, 0);
-         row <= std::min(y + half_window, image_.height - 1); ++row) {
+    for (int beside = std::max(y - half_window, 0);
+         beside <= std::min(y + half_window, image_.height - 1); ++beside) {
+        const auto& [whole, parts] = row(beside);
         for (int column = left; column <= right; ++column)
-            add(whole_[image_.index(column, row)], column - x, row - y);
+            add(whole[static_cast<std::size_t>(column)], column - x, beside - y);
         if (part.share == 1)
             continue;
-        const std::vector<NarrowPart>& parts = parts_[static_cast<std::size_t>(row)];
         for (auto there = std::ranges::lower_bound(parts, left, {}, &NarrowPart::x);
              there != parts.end() && there->x <= right; ++there)
-            add(there->part, there->x - x, row - y);
+            add(there->part, there->x - x, beside - y);
     }
     const float own = part.share == 1 ? around.share_of_own() : 0;
     glm::vec3 light(0.0f);

@@ -138,15 +138,15 @@ void VisibleFacets::fill(int band, Band& out) const {
     }
 }
 
-void VisibleFacets::for_each_band(
-    const Workers& workers, const std::function<void()>& check,
-    const std::function<void(const Band& band, int first, int end)>& visit) const {
+void VisibleFacets::for_bands(int from, int to, const Workers& workers,
+                              const std::function<void()>& check, const VisitBand& visit) const {
     workers.for_chunks_with(
-        static_cast<std::size_t>(bands_), 1, [] { return Band(); },
-        [&](Band& band, std::size_t b, std::size_t) {
+        static_cast<std::size_t>(to - from), 1, [] { return Band(); },
+        [&](Band& band, std::size_t k, std::size_t) {
             check();
-            fill(static_cast<int>(b), band);
-            const int first = static_cast<int>(b) * rows_per_band;
+            const int number = from + static_cast<int>(k);
+            fill(number, band);
+            const int first = number * rows_per_band;
             visit(band, first, std::min(first + rows_per_band, grid_.rows));
         });
 }

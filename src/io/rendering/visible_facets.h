@@ -50,11 +50,17 @@ class VisibleFacets {
         std::vector<double> nearness; ///< inverse of the distance along CameraRays::direction
     };
     void fill(int band, Band& out) const;
-    /// Calls visit(band, first, end) for each band once it is filled, with its rows of the picture,
-    /// in several threads. Calls check(), which may throw to end it, before each band.
-    void
-    for_each_band(const Workers& workers, const std::function<void()>& check,
-                  const std::function<void(const Band& band, int first, int end)>& visit) const;
+    using VisitBand = std::function<void(const Band& band, int first, int end)>;
+    /// Calls visit(band, first, end) for each of some bands, `from` to `to`, once it is filled,
+    /// with its rows of the picture, in several threads. Calls check(), which may throw to end it,
+    /// before each band.
+    void for_bands(int from, int to, const Workers& workers, const std::function<void()>& check,
+                   const VisitBand& visit) const;
+    /// Does the same for all bands.
+    void for_each_band(const Workers& workers, const std::function<void()>& check,
+                       const VisitBand& visit) const {
+        for_bands(0, bands_, workers, check, visit);
+    }
     /// Returns CameraRays::direction through a place in samples.
     [[nodiscard]] Vec3 direction(const Vec2& place) const {
         return origin_ + place.x * column_ + place.y * row_;
