@@ -75,6 +75,12 @@ struct Errors {
     }
 };
 
+/// Makes the first the mean of both.
+void average(Image& light, const Image& other) {
+    for (std::size_t k = 0; k < light.pixels.size(); ++k)
+        light.pixels[k] = 0.5f * (light.pixels[k] + other.pixels[k]);
+}
+
 class Gathering {
   public:
     Gathering(const SolveSettings& settings, const LitScene& scene, const Solution& solution,
@@ -98,8 +104,8 @@ class Gathering {
     [[nodiscard]] ReadError learn(std::span<const TargetPart> target, std::uint64_t seed,
                                   std::optional<double> seconds = {});
     template <class Gather, class Judge>
-    Errors gather_until_right(const std::string& what, const ReadError& read, const Gather& gather,
-                              const Judge& judge, std::uint64_t seed);
+    Errors gather_until_right(const std::string& what, const ReadError& read, Image& shown,
+                              const Gather& gather, const Judge& judge, std::uint64_t seed);
     void add(const Errors& errors) {
         if (!errors_ || errors.bound() > errors_->bound())
             errors_ = errors;
@@ -138,12 +144,14 @@ ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t see
 }
 
 /// Gathers by so many rays at a point, and judges what was given out: judge(pixels, seed) does so
-/// by about so many pixels. Where the error is too large, it is gathered again with twice as many
-/// rays. Once that does not help, each place at which light changes fast gathers by itself: then
-/// most of the error lies between the points of the grid, as in small pictures. Where the error
-/// itself is asked for, more pixels are judged.
+/// by about so many pixels. gather(rays, round, alone) returns the light by a round of rays of its
+/// own. Where the error is too large, it is gathered by as many rays once more, and the mean of
+/// both is given out; then again with twice as many rays as there were. Once that does not help,
+/// each place at which light changes fast gathers by itself: then most of the error lies between
+/// the points of the grid, as in small pictures. Where the error itself is asked for, more pixels
+/// are judged.
 template <class Gather, class Judge>
-Errors Gathering::gather_until_right(const std::string& what, const ReadError& read,
+Errors Gathering::gather_until_right(const std::string& what, const ReadError& read, Image& shown,
                                      const Gather& gather, const Judge& judge, std::uint64_t seed) {
     constexpr unsigned max_rays = 256;
     constexpr std::uint64_t usual_pixels = 512, max_more = 64;
@@ -163,28 +171,39 @@ Errors Gathering::gather_until_right(const std::string& what, const ReadError& r
     };
     double before = std::numeric_limits<double>::infinity();
     bool alone = false;
-    for (unsigned rays = settings_.gather.value_or(rays_for(error_));; rays *= 2) {
-        {
+    unsigned rays = settings_.gather.value_or(rays_for(error_)); // of the next round
+    for (unsigned round = 0;; ++round) {
+        try {
             const Stage stage("gathering the " + what, settings_.verbosity);
             const Stopwatch watch;
+            Image light = gather(rays, round, alone);
             errors.rays = rays;
-            gather(rays, alone);
+            if (round == 1) {
+                average(light, shown);
+                errors.rays *= 2;
+            }
+            shown = std::move(light);
             statistics_.seconds_gather += watch.seconds();
+        } catch (const Interrupted&) {
+            if (round == 0)
+                throw;
+            break; // the rounds before it are given out
         }
         judge_by(1);
         // Few pixels may happen to hold much: more of them cost less than to gather again.
         for (std::uint64_t more = 4; more <= 16 && errors.is_in_doubt(error_); more *= 4)
             judge_by(more);
         log_line(settings_.verbosity, Verbosity::verbose,
-                 what + " by " + counted(rays, "ray", "rays") + " a point: its own error is " +
-                     percent(errors.noise) + ", that of the light which it reads " +
-                     percent(errors.read.error));
-        if (settings_.gather || errors.bound() <= error_ || 2 * rays > max_rays ||
+                 what + " by " + counted(errors.rays, "ray", "rays") +
+                     " a point: its own error is " + percent(errors.noise) +
+                     ", that of the light which it reads " + percent(errors.read.error));
+        if (settings_.gather || errors.bound() <= error_ || 2 * errors.rays > max_rays ||
             !(errors.read.bound <= error_) || monitor_.interrupted)
             break;
         if (errors.noise > helps * before && std::exchange(alone, true))
             break;
         before = errors.noise;
+        rays = round == 0 ? errors.rays : 2 * errors.rays;
     }
     const double accuracy = settings_.error_accuracy;
     for (std::uint64_t more = 4 * judged;
@@ -288,18 +307,21 @@ void Gathering::find_picture(const Camera& camera) {
     RenderOptions options = picture_options(settings_.view.size, settings_.options.threads, time_);
     options.slope = solution_.slope;
     options.cells = &light_.cache->cells();
+    Image picture;
     gather_until_right(
-        "picture", read,
-        [&](unsigned of_point, bool alone) {
+        "picture", read, picture,
+        [&](unsigned of_point, unsigned round, bool alone) {
             options.gathers_coarse = alone;
             options.gather = of_point;
-            light_.picture = render_view(scene_, camera, options);
+            options.gather_round = round;
+            return render_view(scene_, camera, options);
         },
         [&](std::size_t pixels, std::uint64_t seed) {
-            return picture_error(mesh, scene_.tracer, light_.cache->light(), rays, *light_.picture,
-                                 pixels, seed, workers_);
+            return picture_error(mesh, scene_.tracer, light_.cache->light(), rays, picture, pixels,
+                                 seed, workers_);
         },
         seed_of(7));
+    light_.picture = std::move(picture);
 }
 
 /// A signal leaves the light of patches in it.
@@ -325,11 +347,14 @@ void Gathering::find_lightmap(const NamedLayout& named) {
         const ReadError read =
             learn(lightmap_parts(mesh, texels, covered, settings_.bake, seed(10)), seed(11));
         const Errors errors = gather_until_right(
-            object.empty() ? "lightmap" : "lightmap of " + object, read,
-            [&](unsigned of_point, bool) {
+            object.empty() ? "lightmap" : "lightmap of " + object, read, found.image,
+            [&](unsigned of_point, unsigned round, bool) {
                 options.rays = of_point;
-                found =
+                options.round = round;
+                GatheredLightmap one =
                     gather_lightmap(mesh, scene_.tracer, light, texels, covered, options, workers_);
+                found.known = std::move(one.known);
+                return std::move(one.image);
             },
             [&](std::size_t pixels, std::uint64_t judge_seed) {
                 return lightmap_error(mesh, scene_.tracer, light, texels, found, settings_.bake,

@@ -77,6 +77,7 @@ GatheredLightmap gather_lightmap(const Mesh& mesh, const Tracer& tracer, const S
     const PictureGather gather(mesh, tracer, light, grid_of(texels, covered, workers),
                                {.rays = options.rays,
                                 .samples = 1,
+                                .round = options.round,
                                 .gathers_coarse = true,
                                 .only_reflected = options.bake == Bake::indirect,
                                 .check = options.check},

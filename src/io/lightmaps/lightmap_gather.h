@@ -20,6 +20,7 @@ class Workers;
 struct LightmapOptions {
     Bake bake = Bake::radiosity;
     unsigned rays = 16;                  ///< PictureGatherOptions::rays
+    unsigned round = 0;                  ///< PictureGatherOptions::round
     std::function<void()> check = [] {}; ///< may throw to end it; is called by several threads
 };
 

@@ -73,11 +73,13 @@ PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, const Surfa
 
 /// Takes the samples along a Z-curve, so that each aligned square of points has a net of the
 /// sequence (Ahmed and Wonka 2020). Each block of 256 x 256 points has a sequence of its own for
-/// each count.
-GatherSamples PictureGather::samples_of(int x, int y, unsigned count) {
+/// each count and round.
+GatherSamples PictureGather::samples_of(int x, int y, unsigned count) const {
+    constexpr unsigned bits_of_blocks = 16;
     const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
     const std::uint32_t place = spread_bits(column & 255u) | spread_bits(row & 255u) << 1;
-    return {hash_words({column >> 8, row >> 8, count}), place * count, count};
+    const std::uint32_t block = row >> 8 | options_.round << bits_of_blocks;
+    return {hash_words({column >> 8, block, count}), place * count, count};
 }
 
 /// Gathers by rays_at(x, y) more rays at each point.

@@ -30,6 +30,7 @@ struct PictureGatherOptions {
     /// the edge of a shadow takes half as many shadow rays. Four times as many halve the noise.
     unsigned rays = 16;
     unsigned samples = 4; ///< of a pixel
+    unsigned round = 0;   ///< the errors of rounds by the rays are independent
     /// Where light changes faster than the points of the grid are close together, each place
     /// gathers by itself: pictures are smooth there, which texels of a lightmap are too large for.
     bool gathers_coarse = false;
@@ -67,7 +68,7 @@ class PictureGather {
     [[nodiscard]] unsigned shadow_rays() const { return of_sample() * options_.samples; }
 
   private:
-    [[nodiscard]] static GatherSamples samples_of(int x, int y, unsigned count);
+    [[nodiscard]] GatherSamples samples_of(int x, int y, unsigned count) const;
     template <class Rays>
     void gather(const Rays& rays_at, Shadows shadows, const Workers& workers);
     [[nodiscard]] unsigned more_rays(int x, int y) const;

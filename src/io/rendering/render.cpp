@@ -176,6 +176,7 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
         options.width, options.height,
         {.rays = options.gather,
          .samples = samples,
+         .round = options.gather_round,
          .gathers_coarse = options.gathers_coarse,
          .check = check},
         Workers(options.threads));
