@@ -3,8 +3,8 @@
 //     compare_pictures A.png B.png [LEFT,TOP,WIDTH,HEIGHT]
 //
 // Prints the index, of the whole or of a part in pixels.
+#include "io/pictures/ssim.h"
 #include "io/png_reader.h"
-#include "ssim.h"
 
 #include <array>
 #include <cstdio>
@@ -15,9 +15,9 @@ using namespace hemilux;
 
 namespace {
 
-bench::LumaPicture read(const char* path) {
+LumaPicture read(const char* path) {
     const test::Png png = test::read_png(path);
-    return bench::luma_of(png.width, png.height, png.bytes);
+    return luma_of(png.width, png.height, png.bytes);
 }
 
 /// left, top, width and height.
@@ -28,12 +28,12 @@ std::array<int, 4> parse(const char* text) {
     return part;
 }
 
-bench::LumaPicture cut(const bench::LumaPicture& from, const std::array<int, 4>& part) {
+LumaPicture cut(const LumaPicture& from, const std::array<int, 4>& part) {
     const auto& [left, top, width, height] = part;
     if (left < 0 || top < 0 || width < 1 || height < 1 || width > from.width - left ||
         height > from.height - top)
         throw std::invalid_argument("the part is not within the picture");
-    bench::LumaPicture picture{width, height, {}};
+    LumaPicture picture{width, height, {}};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             picture.values.push_back(from.at(left + x, top + y));
@@ -47,10 +47,10 @@ int main(int argc, char** argv) try {
         std::fputs("usage: compare_pictures A.png B.png [LEFT,TOP,WIDTH,HEIGHT]\n", stderr);
         return 1;
     }
-    const bench::LumaPicture a = read(argv[1]), b = read(argv[2]);
+    const LumaPicture a = read(argv[1]), b = read(argv[2]);
     const bool whole = argc == 3;
     const std::array<int, 4> part = whole ? std::array<int, 4>{} : parse(argv[3]);
-    std::printf("%.4f\n", whole ? bench::ssim(a, b) : bench::ssim(cut(a, part), cut(b, part)));
+    std::printf("%.4f\n", whole ? ssim(a, b) : ssim(cut(a, part), cut(b, part)));
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "compare_pictures: %s\n", error.what());

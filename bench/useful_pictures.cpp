@@ -11,13 +11,13 @@
 // the details.
 #include "bvh/wide/wide_bvh.h"
 #include "clock.h"
+#include "io/pictures/ssim.h"
 #include "io/rendering/render.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/run.h"
 #include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/scene/mesh.h"
-#include "ssim.h"
 
 #include <algorithm>
 #include <array>
@@ -73,13 +73,12 @@ class View {
 
     /// The mean index of the windows around pixels that show detail, of the others, and of all.
     [[nodiscard]] std::array<double, parts> compare(const Image& image) const {
-        const std::vector<double> map = bench::ssim_map(luma(image), reference_);
-        const int width = size.width - 2 * bench::ssim_margin;
+        const std::vector<double> map = ssim_map(luma(image), reference_);
+        const int width = size.width - 2 * ssim_margin;
         std::array<double, parts> sum{}, count{};
         for (std::size_t k = 0; k < map.size(); ++k) {
             const int x = static_cast<int>(k) % width, y = static_cast<int>(k) / width;
-            const bool detail =
-                shows_detail_.at(x + bench::ssim_margin, y + bench::ssim_margin).x > 0;
+            const bool detail = shows_detail_.at(x + ssim_margin, y + ssim_margin).x > 0;
             for (const std::size_t part : {std::size_t{0}, std::size_t{detail ? 1u : 2u}})
                 sum[part] += map[k], count[part] += 1;
         }
@@ -115,13 +114,8 @@ class View {
 
   private:
     /// As the bytes of a PNG have it, rounded.
-    [[nodiscard]] bench::LumaPicture luma(const Image& image) const {
-        std::vector<std::uint8_t> bytes;
-        for (const glm::vec3& pixel : image.pixels)
-            for (int c = 0; c < 3; ++c)
-                bytes.push_back(static_cast<std::uint8_t>(
-                    std::lround(255 * srgb_from_linear(static_cast<float>(exposure_) * pixel[c]))));
-        return bench::luma_of(image.width, image.height, bytes);
+    [[nodiscard]] LumaPicture luma(const Image& image) const {
+        return luma_of(image, Display(exposure_));
     }
 
     void find_details() {
@@ -140,7 +134,7 @@ class View {
     const Tracer& tracer_;
     Camera camera_;
     double exposure_ = 1;
-    bench::LumaPicture reference_;
+    LumaPicture reference_;
     Image shows_detail_;
 };
 

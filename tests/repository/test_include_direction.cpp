@@ -83,6 +83,7 @@ const std::vector<std::string> rooms{
     "app/gathering",
     "app/lamps",
     "app/running",
+    "app/outputs",
     "app/factors",
     "app/commands",
     "app/command_line",

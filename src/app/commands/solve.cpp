@@ -14,13 +14,14 @@
 #include "app/loading/load.h"
 #include "app/loading/reference.h"
 #include "app/memory/memory.h"
+#include "app/outputs/step_pictures.h"
+#include "app/outputs/useful_picture.h"
 #include "app/rendering/view.h"
 #include "app/report/half_light.h"
 #include "app/running/checkpointing.h"
 #include "app/running/run_files.h"
 #include "app/running/run_notes.h"
 #include "app/running/signals.h"
-#include "app/running/step_pictures.h"
 #include "app/running/step_size.h"
 #include "app/running/target_weights.h"
 #include "app/settings/exit_code.h"
@@ -104,6 +105,12 @@ double bytes_of_table(const PatchTable& table) {
     return bytes_per_row * static_cast<double>(table.area.size());
 }
 
+void check_useful(const SolveSettings& settings) {
+    if (settings.useful && !settings.work().estimates_error)
+        throw UsageError("--useful: --method " + std::string(settings.method->name) +
+                         " does not estimate its error, by which a picture is judged");
+}
+
 /// Returns how many texels all lightmaps have together.
 double texels_of_lightmaps(const SolveSettings& settings, const FileLightmap& file) {
     const double side = settings.file_bake.asked ? 0 : settings.lightmap.value_or(0);
@@ -121,6 +128,7 @@ Loaded load(SolveSettings settings) {
     check_plain(settings);
     check_target(settings);
     check_layers(settings);
+    check_useful(settings);
     check_checkpoint_options(settings);
     warn_of_unused(settings);
     Workers(settings.options.threads).start();
@@ -225,7 +233,15 @@ Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference
     const std::optional<Checkpoint>& resumed = problem.loaded.resumed;
     const Mesh& mesh = problem.mesh();
     Monitor& monitor = problem.monitor;
-    const StopRule stop = stop_rule(settings, mesh.patches().size(), divided.sampling);
+    StopRule stop = stop_rule(settings, mesh.patches().size(), divided.sampling);
+    UsefulPicture picture(settings, mesh, problem.tracer());
+    if (settings.useful)
+        stop.useful = [&](const Solution& image) {
+            const double similarity = picture.similarity(image);
+            log_line(settings.verbosity, Verbosity::verbose,
+                     formatted("picture: similarity of %.4f to one without noise", similarity));
+            return similarity >= UsefulPicture::useful;
+        };
     Progress progress(monitor, share_of(stop, *settings.method),
                       settings.verbosity != Verbosity::quiet && stderr_is_terminal());
     const Stopwatch solving;

@@ -2,7 +2,7 @@
 // The end of `solve`: the figures of the run, its outputs, its warnings.
 
 #include "app/loading/reference.h"
-#include "app/running/results.h"
+#include "app/outputs/results.h"
 #include "app/running/run_notes.h"
 #include "app/settings/settings.h"
 #include "app/terminal/stopwatch.h"

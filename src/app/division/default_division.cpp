@@ -40,7 +40,7 @@ AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches)
 
 bool divides_by_default(const SolveSettings& settings, std::size_t patches) {
     return !settings.divide_given && patches < max_patches_by_default && writes_mesh(settings) &&
-           settings.method == &method_of(Role::standard) && !settings.plain &&
+           settings.method == &method_of(Role::standard) && !settings.plain && !settings.useful &&
            settings.scene.mesh.max_edge == 0 && settings.target.names().empty() &&
            !settings.stop.steps && !settings.every_step && settings.reference.empty() &&
            settings.checkpoint.path.empty() && settings.checkpoint.resumed.empty();
@@ -52,9 +52,9 @@ StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
     if (settings.divide_auto && (stop.error || (!stop.steps && !stop.seconds)))
         stop.error = sampling.value_or(share_of_sampling * whole_error(settings));
     else if (gives_gathered_light(settings) && settings.work().estimates_error &&
-             (stop.error || (!stop.steps && !stop.seconds)))
+             (stop.error || (!stop.steps && !stop.seconds && !settings.useful)))
         stop.error = sampling_of_gathered(settings);
-    if (!stop.steps && !stop.seconds && !stop.error) {
+    if (!stop.steps && !stop.seconds && !stop.error && !settings.useful) {
         stop = settings.method->default_stop;
         stop.rays = settings.stop.rays;
         if (settings.work().ends_by_itself)

@@ -115,6 +115,7 @@ struct SolveSettings {
     bool divide_auto = false;  ///< patches are divided where the light changes within them
     bool whole_error = false;  ///< what patches leave out is found out
     StopRule stop;             ///< rule as given; the method's own stands in for an empty one
+    bool useful = false;       ///< --useful: it also ends once its picture is (UsefulPicture)
     /// One sigma of the error of gathered light, as a share of it, to which it is found out; 0: no
     /// matter.
     double error_accuracy = 0;

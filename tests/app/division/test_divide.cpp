@@ -1,7 +1,7 @@
 // --divide, and the error of the light within patches.
+#include "app/outputs/results.h"
 #include "app/program.h"
 #include "app/running.h"
-#include "app/running/results.h"
 #include "app/statistics_file.h"
 
 #include "support/catch.h"

@@ -1,4 +1,4 @@
-#include "../../../bench/ssim.h"
+#include "io/pictures/ssim.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 
@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 using namespace hemilux;
-using namespace hemilux::bench;
 
 namespace {
 
@@ -90,4 +89,22 @@ TEST_CASE("Pictures of different sizes, or smaller than a window, are refused") 
     CHECK_THROWS_AS(ssim(grey(20, 20), grey(20, 21)), std::invalid_argument);
     CHECK_THROWS_AS(ssim(grey(20, 10), grey(20, 10)), std::invalid_argument);
     CHECK(ssim(grey(11, 11), grey(11, 11)) == Approx(1));
+}
+
+TEST_CASE("The SSIM to a picture without its noise is found from as much noise once more") {
+    const auto plain = [](int x, int y) { return 100 + 60 * double((x / 8 + y / 8) % 2); };
+    const double amplitude = GENERATE(1, 5, 20, 40);
+    Rng rng(7);
+    const auto add_noise = [&](LumaPicture picture) {
+        for (double& value : picture.values)
+            value += amplitude * (rng.uniform() < .5 ? -1 : 1);
+        return picture;
+    };
+    const LumaPicture truth = picture(200, 150, plain), noisy = add_noise(truth);
+    CHECK(ssim_without_noise(noisy, add_noise(noisy)) == Approx(ssim(noisy, truth)).epsilon(.06));
+    CHECK(ssim_without_noise(truth, truth) == Approx(1));
+    // Of a flat picture noise is all that there is to see.
+    const LumaPicture flat = add_noise(picture(200, 150, [](int, int) { return 120; }));
+    CHECK(ssim_without_noise(flat, add_noise(flat)) ==
+          Approx(ssim(flat, picture(200, 150, [](int, int) { return 120; }))).margin(.05));
 }

@@ -68,7 +68,8 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
         growth = longest > 0 ? std::clamp(took / longest, 1.0, max_growth) : 1;
         longest = std::max(longest, took);
         last = record.seconds;
-        if (done(step, record.seconds, record.estimated_error))
+        if (done(step, record.seconds, record.estimated_error) ||
+            (stop.useful && ranks_of(interrupted).of_first(stop.useful(solution) ? 1. : 0.) > 0))
             return true;
         if (patience && !std::isfinite(error) && record.seconds > *stop.patience)
             return true;

@@ -1,7 +1,7 @@
 #pragma once
 // --error-map: where the light of the patches is far off.
 
-#include "app/running/results.h"
+#include "app/outputs/results.h"
 
 namespace hemilux {
 

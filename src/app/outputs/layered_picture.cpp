@@ -1,4 +1,4 @@
-#include "app/running/layered_picture.h"
+#include "app/outputs/layered_picture.h"
 
 #include "app/rendering/view.h"
 #include "io/files/error.h"

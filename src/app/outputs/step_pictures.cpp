@@ -1,4 +1,4 @@
-#include "app/running/step_pictures.h"
+#include "app/outputs/step_pictures.h"
 
 #include "app/rendering/view.h"
 #include "app/settings/text.h"

@@ -1,7 +1,7 @@
 #pragma once
 // -o picture.exr: beside the light, what is known of the patches that pixels show.
 
-#include "app/running/results.h"
+#include "app/outputs/results.h"
 #include "io/pictures/exr.h"
 
 #include <span>

@@ -1,11 +1,13 @@
-#include "ssim.h"
+#include "io/pictures/ssim.h"
 
+#include "geometry/elementary.h"
+
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
 
-namespace hemilux::bench {
+namespace hemilux {
 namespace {
 
 constexpr int window = 2 * ssim_margin + 1;
@@ -16,7 +18,7 @@ std::array<double, window> gaussian() {
     std::array<double, window> weight;
     for (int k = 0; k < window; ++k)
         weight[static_cast<std::size_t>(k)] =
-            std::exp(-.5 * std::pow((k - ssim_margin) / deviation, 2));
+            elementary::exp(-.5 * (k - ssim_margin) * (k - ssim_margin) / (deviation * deviation));
     const double sum = std::accumulate(weight.begin(), weight.end(), 0.0);
     for (double& w : weight)
         w /= sum;
@@ -56,7 +58,21 @@ LumaPicture luma_of(int width, int height, std::span<const std::uint8_t> rgb) {
     return picture;
 }
 
-std::vector<double> ssim_map(const LumaPicture& a, const LumaPicture& b) {
+LumaPicture luma_of(const Image& image, const Display& display) {
+    std::vector<std::uint8_t> rgb;
+    for (const glm::vec3& pixel : image.pixels) {
+        const glm::vec3 shown = display(pixel);
+        for (int c = 0; c < 3; ++c)
+            rgb.push_back(srgb_byte(shown[c]));
+    }
+    return luma_of(image.width, image.height, rgb);
+}
+
+namespace {
+
+/// Calls visit(index of means, variance of a, variance of b, covariance) for each window.
+template <class Visit>
+void for_each_window(const LumaPicture& a, const LumaPicture& b, const Visit& visit) {
     if (a.width != b.width || a.height != b.height)
         throw std::invalid_argument("the pictures have different sizes");
     if (a.width < window || a.height < window)
@@ -64,19 +80,37 @@ std::vector<double> ssim_map(const LumaPicture& a, const LumaPicture& b) {
     const std::vector<double> mean_a = means(a).values, mean_b = means(b).values;
     const std::vector<double> aa = means(product(a, a)).values, bb = means(product(b, b)).values,
                               ab = means(product(a, b)).values;
-    std::vector<double> map;
     for (std::size_t k = 0; k < mean_a.size(); ++k) {
         const double ma = mean_a[k], mb = mean_b[k];
-        const double variances = aa[k] - ma * ma + bb[k] - mb * mb, covariance = ab[k] - ma * mb;
-        map.push_back((2 * ma * mb + c1) * (2 * covariance + c2) /
-                      ((ma * ma + mb * mb + c1) * (variances + c2)));
+        visit((2 * ma * mb + c1) / (ma * ma + mb * mb + c1), aa[k] - ma * ma, bb[k] - mb * mb,
+              ab[k] - ma * mb);
     }
-    return map;
 }
 
-double ssim(const LumaPicture& a, const LumaPicture& b) {
-    const std::vector<double> map = ssim_map(a, b);
+double mean_of(const std::vector<double>& map) {
     return std::accumulate(map.begin(), map.end(), 0.0) / static_cast<double>(map.size());
 }
 
-} // namespace hemilux::bench
+} // namespace
+
+std::vector<double> ssim_map(const LumaPicture& a, const LumaPicture& b) {
+    std::vector<double> map;
+    for_each_window(a, b, [&](double of_means, double va, double vb, double covariance) {
+        map.push_back(of_means * (2 * covariance + c2) / (va + vb + c2));
+    });
+    return map;
+}
+
+double ssim(const LumaPicture& a, const LumaPicture& b) { return mean_of(ssim_map(a, b)); }
+
+double ssim_without_noise(const LumaPicture& noisy, const LumaPicture& again) {
+    std::vector<double> map;
+    for_each_window(noisy, again, [&](double of_means, double va, double vb, double covariance) {
+        const double noise = std::max(va + vb - 2 * covariance, 0.0),
+                     without = std::max(va - noise, 0.0);
+        map.push_back(of_means * (2 * without + c2) / (2 * without + noise + c2));
+    });
+    return mean_of(map);
+}
+
+} // namespace hemilux

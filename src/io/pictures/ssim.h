@@ -8,12 +8,14 @@
 // say (Zinner, Hohlfeld, Abboud and Hossfeld 2010) a picture is excellent from 0.99 on, good from
 // 0.95, fair from 0.88.
 
+#include "io/pictures/image.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace hemilux::bench {
+namespace hemilux {
 
 /// Luma from 0 to 255, row by row from the top.
 struct LumaPicture {
@@ -29,6 +31,9 @@ struct LumaPicture {
 /// Of bytes of R, G and B as they stand in a PNG: 0.299 R + 0.587 G + 0.114 B (ITU-R BT.601).
 [[nodiscard]] LumaPicture luma_of(int width, int height, std::span<const std::uint8_t> rgb);
 
+/// The same of a picture as it is written with this display.
+[[nodiscard]] LumaPicture luma_of(const Image& image, const Display& display);
+
 /// The index at each place whose window of 11 x 11 pixels lies within both pictures, row by row:
 /// (width - 10) x (height - 10) values of the window around pixel (x + 5, y + 5). Throws
 /// std::invalid_argument if the sizes differ or are below 11.
@@ -40,4 +45,11 @@ inline constexpr int ssim_margin = 5;
 /// The mean of the map, MSSIM of the source.
 [[nodiscard]] double ssim(const LumaPicture& a, const LumaPicture& b);
 
-} // namespace hemilux::bench
+/// Returns the mean that the index is expected to have between a picture with noise and the same
+/// picture without. `again` is the first with as much independent noise once more. So the variance
+/// m of their difference in a window is that of the noise, v - m is that of the picture without,
+/// and the index of structure becomes (2 (v - m) + C2) / (2 (v - m) + m + C2), with v the variance
+/// of the first. The means of windows are compared as they are.
+[[nodiscard]] double ssim_without_noise(const LumaPicture& noisy, const LumaPicture& again);
+
+} // namespace hemilux

@@ -1,8 +1,8 @@
-#include "app/running/mesh_output.h"
+#include "app/outputs/mesh_output.h"
 
 #include "app/gathering/lit_file_output.h"
+#include "app/outputs/layered_picture.h"
 #include "app/rendering/view.h"
-#include "app/running/layered_picture.h"
 #include "app/terminal/log.h"
 #include "io/lightmaps/lightmap.h"
 #include "io/meshes/baked_light.h"

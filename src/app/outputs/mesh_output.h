@@ -1,7 +1,7 @@
 #pragma once
 // The light of a run as a mesh, at its vertices or in a lightmap.
 
-#include "app/running/results.h"
+#include "app/outputs/results.h"
 #include "io/results/smooth.h"
 
 namespace hemilux {

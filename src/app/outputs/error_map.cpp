@@ -1,4 +1,4 @@
-#include "app/running/error_map.h"
+#include "app/outputs/error_map.h"
 
 #include "app/rendering/view.h"
 #include "io/drawings/density_picture.h"
