@@ -7,6 +7,7 @@
 #include "radiosity/paper/solving/solver.h"
 
 #include <algorithm>
+#include <array>
 
 namespace hemilux {
 namespace {
