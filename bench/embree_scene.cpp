@@ -1,6 +1,7 @@
 #include "embree_scene.h"
 
 #include "clock.h"
+#include "parallel/instruction_set.h"
 
 #include <algorithm>
 #include <limits>
@@ -14,7 +15,6 @@
 namespace hemilux::bench {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t rays_of_stream = 64;
 
 /// Denormal floats count as 0 while this lives, as Embree's manual advises.
@@ -33,6 +33,17 @@ class FlushToZero {
     unsigned before_;
 #endif
 };
+
+/// One thread, with no wider instructions than hemilux may use.
+std::string device_settings() {
+    const std::string_view isa = chosen_instruction_set() == InstructionSet::avx512 ? "avx512"
+                                 : chosen_instruction_set() == InstructionSet::avx2 ? "avx2"
+                                                                                    : "sse4.2";
+    return "threads=1,set_affinity=0,max_isa=" + std::string(isa);
+}
+
+/// Embree marks a ray that is occluded by this end.
+constexpr float occluded_end = -std::numeric_limits<float>::infinity();
 
 /// What filters know of a query.
 struct Context {
@@ -58,7 +69,7 @@ RTCRayHit embree_ray(const Ray& ray, float t_min, std::size_t id) {
     out.ray.dir_y = static_cast<float>(ray.direction.y);
     out.ray.dir_z = static_cast<float>(ray.direction.z);
     out.ray.tnear = t_min;
-    out.ray.tfar = infinity;
+    out.ray.tfar = static_cast<float>(ray.t_max);
     out.ray.mask = ~0u;
     out.ray.id = static_cast<unsigned>(id);
     out.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -106,6 +117,9 @@ void trace_packets(const EmbreeScene& scene, RTCIntersectContext& context, bool 
             valid[k] = k < there ? -1 : 0;
         if (only_occluded) {
             occluded(valid, scene.scene(), &context, &packet.ray);
+            for (std::size_t k = 0; k < there; ++k)
+                if (packet.ray.tfar[k] == occluded_end)
+                    out[p * Size + k] = 1;
             continue;
         }
         intersect(valid, scene.scene(), &context, &packet);
@@ -121,6 +135,8 @@ void trace_ones(const EmbreeScene& scene, RTCIntersectContext& context, bool onl
         RTCRayHit ray = rays[k];
         if (only_occluded) {
             rtcOccluded1(scene.scene(), &context, &ray.ray);
+            if (ray.ray.tfar == occluded_end)
+                out[k] = 1;
             continue;
         }
         rtcIntersect1(scene.scene(), &context, &ray);
@@ -129,12 +145,20 @@ void trace_ones(const EmbreeScene& scene, RTCIntersectContext& context, bool onl
     }
 }
 
-void trace_streams(const EmbreeScene& scene, RTCIntersectContext& context,
+void trace_streams(const EmbreeScene& scene, RTCIntersectContext& context, bool only_occluded,
                    std::span<const RTCRayHit> rays, std::span<std::uint32_t> out) {
     alignas(64) RTCRayHit stream[rays_of_stream];
     for (std::size_t begin = 0; begin < rays.size(); begin += rays_of_stream) {
         const std::size_t n = std::min(rays_of_stream, rays.size() - begin);
         std::copy_n(rays.begin() + std::ptrdiff_t(begin), n, stream);
+        if (only_occluded) {
+            rtcOccluded1M(scene.scene(), &context, &stream[0].ray, static_cast<unsigned>(n),
+                          sizeof(RTCRayHit));
+            for (std::size_t k = 0; k < n; ++k)
+                if (stream[k].ray.tfar == occluded_end)
+                    out[begin + k] = 1;
+            continue;
+        }
         rtcIntersect1M(scene.scene(), &context, stream, static_cast<unsigned>(n),
                        sizeof(RTCRayHit));
         for (std::size_t k = 0; k < n; ++k)
@@ -146,7 +170,7 @@ void trace_streams(const EmbreeScene& scene, RTCIntersectContext& context,
 } // namespace
 
 EmbreeScene::EmbreeScene(const FacetSoup& soup, const EmbreeBuild& how)
-    : device_(rtcNewDevice("threads=1,set_affinity=0")) {
+    : device_(rtcNewDevice(device_settings().c_str())) {
     if (!device_)
         throw std::runtime_error("Embree does not start");
     for (const Vec3& v : soup.vertices)
@@ -203,6 +227,7 @@ std::string name_of(const EmbreeQuery& query) {
     using By = EmbreeQuery::By;
     const std::string call = query.occluded ? "occluded" : "intersect";
     const char* const suffix = query.by == By::one            ? "1"
+                               : query.by == By::packets_of_4 ? "4"
                                : query.by == By::packets_of_8 ? "8"
                                : query.by == By::streams      ? "1M"
                                                               : "16";
@@ -212,6 +237,7 @@ std::string name_of(const EmbreeQuery& query) {
 EmbreeRays::EmbreeRays(std::span<const Ray> of, float t_min) : rays(of) {
     for (std::size_t k = 0; k < of.size(); ++k)
         ones.push_back(embree_ray(of[k], t_min, k));
+    fours = packets_of<RTCRayHit4, 4>(ones);
     eights = packets_of<RTCRayHit8, 8>(ones);
     sixteens = packets_of<RTCRayHit16, 16>(ones);
 }
@@ -228,6 +254,9 @@ void embree_trace(const EmbreeScene& scene, const EmbreeQuery& query, const Embr
     switch (query.by) {
     case EmbreeQuery::By::one:
         return trace_ones(scene, context.context, query.occluded, rays.ones, out);
+    case EmbreeQuery::By::packets_of_4:
+        return trace_packets<4>(scene, context.context, query.occluded, rays.fours, out,
+                                rtcIntersect4, rtcOccluded4);
     case EmbreeQuery::By::packets_of_8:
         return trace_packets<8>(scene, context.context, query.occluded, rays.eights, out,
                                 rtcIntersect8, rtcOccluded8);
@@ -235,7 +264,7 @@ void embree_trace(const EmbreeScene& scene, const EmbreeQuery& query, const Embr
         return trace_packets<16>(scene, context.context, query.occluded, rays.sixteens, out,
                                  rtcIntersect16, rtcOccluded16);
     case EmbreeQuery::By::streams:
-        return trace_streams(scene, context.context, rays.ones, out);
+        return trace_streams(scene, context.context, query.occluded, rays.ones, out);
     }
 }
 

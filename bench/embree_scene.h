@@ -42,9 +42,9 @@ class EmbreeScene {
     std::vector<std::uint32_t> indices_, facet_;
 };
 
-/// How Embree is asked: ray by ray, in packets of 8 or 16, or as a stream of 64.
+/// How Embree is asked: ray by ray, in packets of 4, 8 or 16, or as a stream of 64.
 struct EmbreeQuery {
-    enum class By { one, packets_of_8, packets_of_16, streams } by = By::one;
+    enum class By { one, packets_of_4, packets_of_8, packets_of_16, streams } by = By::one;
     bool coherent = false; ///< the flag that promises rays to be alike
     bool occluded = false; ///< rtcOccluded in place of rtcIntersect
 };
@@ -58,11 +58,13 @@ class EmbreeRays {
 
     std::span<const Ray> rays;
     std::vector<RTCRayHit> ones;
+    std::vector<RTCRayHit4> fours;
     std::vector<RTCRayHit8> eights;
     std::vector<RTCRayHit16> sixteens;
 };
 
-/// The primitives that were hit, in `out`; with a scene of counting_filter how many there are.
+/// The primitives that were hit, in `out`; with a scene of counting_filter how many there are;
+/// else, for rtcOccluded, 1 where there is one.
 void embree_trace(const EmbreeScene& scene, const EmbreeQuery& query, const EmbreeRays& rays,
                   std::span<std::uint32_t> out);
 /// Refuses everything and counts what does not belong to the facet that the ray starts on.

@@ -5,10 +5,12 @@
 // Without scenes six are made: a Cornell box and a cluttered room at three finenesses. One thread,
 // CPU time, Embree and hemilux in turn, the fastest of the rounds. Both get the same rays in the
 // same order: `shuffled`, or `sorted` by patch and direction. Of Embree's ways to trace them the
-// fastest is taken (single rays, packets of 8 and 16, streams; either coherence flag; medium and
+// fastest is taken (single rays, packets of 4, 8 and 16, streams; either coherence flag; medium and
 // high quality; quads as quads or as two triangles), which a few rounds find out before the race;
-// `robust` is the fastest of its watertight mode. `count`: all facets on each ray, of Embree by
-// filters that refuse them, where their counts agree. `build` is beside its medium quality.
+// `robust` is the fastest of its watertight mode. `shadow`: whether anything lies between two
+// points. `count`: all facets on each ray, of Embree by filters that refuse them, where their
+// counts agree. `build` is beside its medium quality. Embree may use the instruction set that
+// hemilux uses, which HEMILUX_KERNELS chooses, and which each row names.
 #include "bvh/wide/wide_bvh.h"
 #include "io/scene_files/obj.h"
 #include "rays.h"
@@ -45,21 +47,22 @@ struct Row {
     std::size_t rays_per_patch;
     double hemilux, embree = 0, robust = 0; ///< millions per second; 0: not measured
     std::string way = {};                   ///< the fastest of Embree's
+    std::string_view isa = name_of(chosen_instruction_set()); ///< of both
     [[nodiscard]] double ratio() const { return embree > 0 ? hemilux / embree : 0; }
 };
 
 class Report {
   public:
     void add(const Row& row) {
-        std::printf("%-22s %-9s %6zu %10.3f %10.3f %10.3f %7.2f  %s\n", row.scene.c_str(),
+        std::printf("%-22s %-9s %6zu %10.3f %10.3f %10.3f %7.2f  %-8s %s\n", row.scene.c_str(),
                     row.work.c_str(), row.rays_per_patch, row.hemilux, row.embree, row.robust,
-                    row.ratio(), row.way.c_str());
+                    row.ratio(), std::string(row.isa).c_str(), row.way.c_str());
         std::fflush(stdout);
         rows_.push_back(row);
     }
     void print_means() const {
         std::printf("\n%-12s %8s %8s\n", "work", "mean", "worst");
-        for (const char* work : {"shuffled", "sorted", "count", "build"}) {
+        for (const char* work : {"shuffled", "sorted", "shadow", "count", "build"}) {
             double sum = 0, worst = INFINITY;
             int n = 0;
             for (const Row& row : rows_)
@@ -78,7 +81,8 @@ class Report {
         for (std::size_t i = 0; i < rows_.size(); ++i) {
             const Row& r = rows_[i];
             out << (i ? ",\n " : "\n ") << "{\"scene\": \"" << r.scene << "\", \"work\": \""
-                << r.work << "\", \"rays_per_patch\": " << r.rays_per_patch
+                << r.work << "\", \"instructions\": \"" << r.isa
+                << "\", \"rays_per_patch\": " << r.rays_per_patch
                 << ", \"hemilux_mrays_s\": " << r.hemilux << ", \"embree_mrays_s\": " << r.embree
                 << ", \"embree_robust_mrays_s\": " << r.robust << ", \"embree_way\": \"" << r.way
                 << "\", \"ratio\": " << r.ratio() << "}";
@@ -95,6 +99,9 @@ class Report {
 double millions(std::size_t n, double seconds) { return 1e-6 * double(n) / seconds; }
 
 #if defined(HEMILUX_EMBREE)
+/// Embree's rays start at this t, in place of leaving out the facet that a ray starts on.
+constexpr float start_of_theirs = 1e-6f;
+
 /// Embree's scenes over the same facets, and its ways to trace rays in them.
 class Rival {
   public:
@@ -155,12 +162,12 @@ class Rival {
     std::vector<Built> scenes_;
 };
 
-std::vector<EmbreeQuery> closest_queries() {
+std::vector<EmbreeQuery> all_queries(bool occluded) {
     using By = EmbreeQuery::By;
-    std::vector<EmbreeQuery> queries{{By::one}};
-    for (const By by : {By::packets_of_8, By::packets_of_16, By::streams})
+    std::vector<EmbreeQuery> queries{{By::one, false, occluded}};
+    for (const By by : {By::packets_of_4, By::packets_of_8, By::packets_of_16, By::streams})
         for (const bool coherent : {false, true})
-            queries.push_back({by, coherent});
+            queries.push_back({by, coherent, occluded});
     return queries;
 }
 
@@ -169,7 +176,8 @@ std::vector<EmbreeQuery> counting_queries() {
     using By = EmbreeQuery::By;
     std::vector<EmbreeQuery> queries;
     for (const bool occluded : {false, true})
-        for (const By by : {By::one, By::packets_of_8, By::packets_of_16})
+        for (const By by :
+             {By::one, By::packets_of_4, By::packets_of_8, By::packets_of_16, By::streams})
             queries.push_back({by, false, occluded});
     return queries;
 }
@@ -193,6 +201,8 @@ class Course {
             closest("shuffled", many.shuffled);
         if (wanted("sorted"))
             closest("sorted", many.sorted);
+        if (wanted("shadow"))
+            shadow(make_shadow_rays(mesh_, many));
         if (wanted("count"))
             count(make_rays(mesh_, 64, settings_.rays).sorted);
         if (wanted("agreement"))
@@ -237,9 +247,8 @@ class Course {
         std::vector<std::function<void()>> variants{[&] { bvh_->closest_stream(rays, hits); }};
         std::string way;
 #if defined(HEMILUX_EMBREE)
-        constexpr float t_min = 1e-6f; // in place of leaving out the facet that a ray starts on
-        const EmbreeRays theirs(rays, t_min);
-        const auto queries = closest_queries();
+        const EmbreeRays theirs(rays, start_of_theirs);
+        const auto queries = all_queries(false);
         const Rival fast(soup_, false), robust(soup_, true);
         std::vector<std::uint32_t> out(rays.size());
         const Rival::Way best = fast.fastest(queries, theirs, false),
@@ -251,12 +260,34 @@ class Course {
         add(work, 1024, rays.size(), fastest_of_rounds(variants, settings_.rounds), way);
     }
 
+    void shadow(std::span<const Ray> rays) const {
+        const std::vector<std::uint32_t> targets(rays.size(), none);
+        std::vector<std::uint8_t> blocked(rays.size());
+        std::vector<std::function<void()>> variants{
+            [&] { bvh_->occluded_stream(rays, targets, blocked); }};
+        std::string way;
+#if defined(HEMILUX_EMBREE)
+        const EmbreeRays theirs(rays, start_of_theirs);
+        const auto queries = all_queries(true);
+        const Rival fast(soup_, false), robust(soup_, true);
+        std::vector<std::uint32_t> out(rays.size());
+        const Rival::Way best = fast.fastest(queries, theirs, false),
+                         sure = robust.fastest(queries, theirs, false);
+        for (const Rival::Way* const one : {&best, &sure})
+            variants.push_back([&, one] { embree_trace(*one->scene, one->query, theirs, out); });
+        way = best.name;
+#endif
+        add("shadow", 1024, rays.size(), fastest_of_rounds(variants, settings_.rounds), way);
+#if defined(HEMILUX_EMBREE)
+        const std::vector<std::uint32_t> ours(blocked.begin(), blocked.end());
+        std::printf("%-22s same shadows as Embree (robust): %.4f %%\n", name_.c_str(),
+                    100 * Rival::agreement(ours, out));
+#endif
+    }
+
     void count(std::span<const Ray> rays) const {
         std::vector<std::uint32_t> pierced(rays.size());
-        std::vector<std::function<void()>> variants{[&] {
-            for (std::size_t k = 0; k < rays.size(); ++k)
-                pierced[k] = bvh_->count(rays[k]);
-        }};
+        std::vector<std::function<void()>> variants{[&] { bvh_->count_stream(rays, pierced); }};
         std::string way;
 #if defined(HEMILUX_EMBREE)
         const EmbreeRays theirs(rays, 0);
@@ -344,8 +375,8 @@ Settings read_settings(int argc, char** argv) {
 int main(int argc, char** argv) try {
     const Settings settings = read_settings(argc, argv);
     Report report;
-    std::printf("%-22s %-9s %6s %10s %10s %10s %7s  %s\n", "scene", "work", "rays", "hemilux",
-                "embree", "robust", "ratio", "Embree's way");
+    std::printf("%-22s %-9s %6s %10s %10s %10s %7s  %-8s %s\n", "scene", "work", "rays", "hemilux",
+                "embree", "robust", "ratio", "both use", "Embree's way");
     for (const std::string& file : settings.files)
         Course(file, read_obj(file).scene, settings, report).run();
     if (settings.files.empty())

@@ -17,4 +17,8 @@ struct RaySet {
 /// About `total` rays. The patches are taken from runs of neighbours, as if all were visited.
 [[nodiscard]] RaySet make_rays(const Mesh& mesh, std::size_t per_patch, std::size_t total);
 
+/// Shadow rays: from where rays of `set` start to where others do, picked at random among those
+/// that face each other. They end just before the facet they go to.
+[[nodiscard]] std::vector<Ray> make_shadow_rays(const Mesh& mesh, const RaySet& set);
+
 } // namespace hemilux::bench

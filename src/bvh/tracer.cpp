@@ -13,6 +13,11 @@ void Tracer::occluded_stream(std::span<const Ray> rays, std::span<const std::uin
         out[k] = occluded(rays[k], targets[k]);
 }
 
+void Tracer::count_stream(std::span<const Ray> rays, std::span<std::uint32_t> out) const {
+    for (std::size_t k = 0; k < rays.size(); ++k)
+        out[k] = count(rays[k]);
+}
+
 Hit Tracer::locate(const Ray& ray, std::uint32_t) const { return closest(ray).value(); }
 
 } // namespace hemilux

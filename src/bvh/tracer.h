@@ -72,6 +72,8 @@ class Tracer {
     /// Sets out[k] != 0 where something but targets[k] lies on ray k.
     virtual void occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
                                  std::span<std::uint8_t> out) const;
+    /// Counts the facets that each ray pierces.
+    virtual void count_stream(std::span<const Ray> rays, std::span<std::uint32_t> out) const;
     /// Returns the full hit record of a ray that is known to hit `facet` first.
     [[nodiscard]] virtual Hit locate(const Ray& ray, std::uint32_t facet) const;
     /// Returns the share of light [-] that comes along a ray which nothing occludes up to t_max. It

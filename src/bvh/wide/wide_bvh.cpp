@@ -278,4 +278,21 @@ void WideBvh::occluded_stream(std::span<const Ray> rays, std::span<const std::ui
     }
 }
 
+void WideBvh::count_stream(std::span<const Ray> rays, std::span<std::uint32_t> out) const {
+    if (built_.leaves.size() == 0) {
+        std::fill_n(out.begin(), rays.size(), 0u);
+        return;
+    }
+    for (std::size_t begin = 0; begin < rays.size(); begin += Block::size) {
+        const auto now = rays.subspan(begin, std::min(rays.size() - begin, Block::size));
+        Block block(*this, now);
+        Query query{soup_, now, block.scaled};
+        kernels_->count_stream(tree(), block.scaled.data(), static_cast<unsigned>(now.size()),
+                               block.nearest.data(), &out[begin], exact(query));
+        for (std::size_t k = 0; k < now.size(); ++k)
+            if (block.fit[k] == Fit::too_far)
+                out[begin + k] = count(now[k]);
+    }
+}
+
 } // namespace hemilux

@@ -30,6 +30,7 @@ class WideBvh final : public Tracer {
     void closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const override;
     void occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
                          std::span<std::uint8_t> out) const override;
+    void count_stream(std::span<const Ray> rays, std::span<std::uint32_t> out) const override;
     [[nodiscard]] Hit locate(const Ray& ray, std::uint32_t facet) const override;
 
     /// Returns how many triangles a ray that begins or passes there has to be tested against at

@@ -90,6 +90,9 @@ struct Kernels {
     /// t[k] bounds the farthest distance of ray k; blocked[k] becomes 0 or 1.
     void (*occluded_stream)(const Tree&, const FloatRay* rays, unsigned count, const Nearest* t,
                             const std::uint32_t* targets, std::uint8_t* blocked, const ExactTest&);
+    /// t[k] bounds the farthest distance of ray k; pierced[k] becomes the number of facets on it.
+    void (*count_stream)(const Tree&, const FloatRay* rays, unsigned count, const Nearest* t,
+                         std::uint32_t* pierced, const ExactTest&);
 };
 
 } // namespace hemilux::wide

@@ -126,21 +126,24 @@ bool same(const std::optional<Hit>& a, const FacetHit& b) {
 void check_streams(const WideBvh& bvh, const std::vector<Ray>& rays) {
     std::vector<FacetHit> hits(rays.size());
     std::vector<std::uint8_t> occluded(rays.size());
-    std::vector<std::uint32_t> targets;
+    std::vector<std::uint32_t> targets, counts(rays.size());
     for (std::size_t k = 0; k < rays.size(); ++k)
         targets.push_back(static_cast<std::uint32_t>(k % 7));
     bvh.closest_stream(rays, hits);
     bvh.occluded_stream(rays, targets, occluded);
-    int closest_differ = 0, occluded_differ = 0;
+    bvh.count_stream(rays, counts);
+    int closest_differ = 0, occluded_differ = 0, count_differ = 0;
     for (std::size_t k = 0; k < rays.size(); ++k) {
         const auto hit = bvh.closest(rays[k]);
         closest_differ += !same(hit, hits[k]);
         if (hit)
             CHECK(bvh.locate(rays[k], hits[k].facet).t == hit->t);
         occluded_differ += bvh.occluded(rays[k], targets[k]) != (occluded[k] != 0);
+        count_differ += bvh.count(rays[k]) != counts[k];
     }
     CHECK(closest_differ == 0);
     CHECK(occluded_differ == 0);
+    CHECK(count_differ == 0);
 }
 
 /// The soup, three hundred times smaller, in the middle of a box: as a scene lies under its sky.
@@ -278,6 +281,9 @@ TEST_CASE("The wide tree over nothing, and over bad coordinates") {
     std::uint8_t blocked = 1;
     empty.occluded_stream({&up, 1}, {&none, 1}, {&blocked, 1});
     CHECK(blocked == 0);
+    std::uint32_t pierced = 7;
+    empty.count_stream({&up, 1}, {&pierced, 1});
+    CHECK(pierced == 0);
     CHECK(empty.triangles_around(Vec3(0.0)) == 0);
 
     const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -164,4 +164,18 @@ inline void occluded_stream(const Tree& tree, const FloatRay* rays, unsigned cou
                                        });
 }
 
+inline void count_stream(const Tree& tree, const FloatRay* rays, unsigned count, const Nearest* t,
+                         std::uint32_t* pierced, const ExactTest& exact) {
+    for (unsigned k = 0; k < count; ++k)
+        pierced[k] = 0;
+    unsigned started = 0;
+    traverse_interleaved<Rays::pierce>(tree, FromArray{rays, count, t, tree.root, started},
+                                       [&](RayState& state, const Leaf& leaf) {
+                                           const unsigned k = state.index;
+                                           pierced[k] += count_in(leaf, *state.ray, k, t[k].low,
+                                                                  t[k].high, exact);
+                                           return false;
+                                       });
+}
+
 } // namespace hemilux::wide::HEMILUX_KERNELS

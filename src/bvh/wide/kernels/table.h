@@ -14,6 +14,6 @@
 namespace hemilux::wide::HEMILUX_KERNELS {
 
 extern const Kernels kernels;
-const Kernels kernels{closest, occluded, count, closest_stream, occluded_stream};
+const Kernels kernels{closest, occluded, count, closest_stream, occluded_stream, count_stream};
 
 } // namespace hemilux::wide::HEMILUX_KERNELS

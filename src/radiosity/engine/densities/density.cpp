@@ -1,17 +1,19 @@
 #include "radiosity/engine/densities/density.h"
 
 #include "parallel/workers.h"
+#include "radiosity/engine/densities/level_counts.h"
 #include "radiosity/paper/hemisphere/density_direction.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 
 #include <algorithm>
+#include <array>
 
 namespace hemilux {
 namespace {
 
 /// Walks the tree of one patch depth-first. count_at(vertex) is called once for each vertex of the
-/// triangles that exist, always in the same order. There the writer traces a ray, and the reader
+/// triangles that exist, always in the same order. There the writer keeps a count, and the reader
 /// takes the next byte. leaf(cell, mean) is called for each triangle that is not divided.
 template <class CountAt, class Leaf>
 class TreeWalk {
@@ -78,21 +80,25 @@ DensityMap::DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere&
     workers.for_chunks(patches, block_size, [&](std::size_t begin, std::size_t end) {
         Block& block = blocks[begin / block_size];
         block.lengths.assign(end - begin, 0);
-        for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
-            if (!needs.power(static_cast<std::uint32_t>(i)))
+        if (monitor.interrupted)
+            return;
+        LevelCounts levels(hemisphere, directions, counted_above, tracer);
+        std::array<LevelCounts::Counts, block_size> found;
+        for (std::size_t i = begin; i < end; ++i)
+            if (const auto patch = static_cast<std::uint32_t>(i); needs.power(patch))
+                levels.add(mesh.patches()[i].centre, mesh.hemisphere_frame(patch),
+                           mesh.patches()[i].facet, found[i - begin]);
+        levels.find();
+        for (std::size_t i = begin; i < end; ++i) {
+            const LevelCounts::Counts& counts = found[i - begin];
+            if (counts.empty())
                 continue;
-            const Patch& patch = mesh.patches()[i];
-            const Frame frame = mesh.hemisphere_frame(static_cast<std::uint32_t>(i));
             const std::size_t start = block.counts.size();
-            const auto count_at = [&](std::uint16_t v) {
-                const Ray ray{.origin = patch.centre,
-                              .direction = frame.to_world(directions[v]),
-                              .from = patch.facet};
-                block.counts.push_back(
-                    static_cast<std::uint8_t>(std::min(tracer.count(ray), 255u)));
-                return std::int16_t{block.counts.back()};
+            const auto keep = [&](std::uint16_t v) {
+                block.counts.push_back(counts[v]);
+                return std::int16_t{counts[v]};
             };
-            TreeWalk(hemisphere, counted_above, count_at, [](std::uint16_t, double) {}).run();
+            TreeWalk(hemisphere, counted_above, keep, [](std::uint16_t, double) {}).run();
             block.lengths[i - begin] = static_cast<std::uint16_t>(block.counts.size() - start);
         }
         monitor.rays += block.counts.size();

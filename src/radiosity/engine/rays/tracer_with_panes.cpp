@@ -38,6 +38,10 @@ bool TracerWithPanes::occluded(const Ray& ray, std::uint32_t target) const {
 
 std::uint32_t TracerWithPanes::count(const Ray& ray) const { return facets_->count(ray); }
 
+void TracerWithPanes::count_stream(std::span<const Ray> rays, std::span<std::uint32_t> out) const {
+    facets_->count_stream(rays, out);
+}
+
 /// Distances are found only for rays that have a pane on their line.
 void TracerWithPanes::closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const {
     facets_->closest_stream(rays, out);

@@ -30,6 +30,7 @@ class TracerWithPanes final : public Tracer {
     [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target = none) const override;
     /// Counts facets; panes do not count.
     [[nodiscard]] std::uint32_t count(const Ray& ray) const override;
+    void count_stream(std::span<const Ray> rays, std::span<std::uint32_t> out) const override;
     void closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const override;
     void occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
                          std::span<std::uint8_t> out) const override;

@@ -47,6 +47,31 @@ TEST_CASE("In a convex room every direction counts one surface") {
     CHECK(map.bytes() == map.rays());
 }
 
+TEST_CASE("Counts are those of rays traced one by one, whatever is divided") {
+    const Model model(test::room_with_block());
+    const Hemisphere hemisphere(2);
+    for (const double threshold : {0.0, 1.0, 1.5}) {
+        const DensityMap map = measure(model, hemisphere, threshold);
+        std::vector<DensityCount> counts;
+        std::size_t differ = 0, all = 0;
+        for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i) {
+            map.counts(i, counts);
+            all += counts.size();
+            const Patch& patch = model.mesh.patches()[i];
+            for (const DensityCount& count : counts) {
+                const Vec3 way = density_direction(hemisphere.vertices()[count.vertex]);
+                const Ray ray{.origin = patch.centre,
+                              .direction = model.mesh.hemisphere_frame(i).to_world(way),
+                              .from = patch.facet};
+                differ += model.bvh.count(ray) != count.surfaces;
+            }
+        }
+        CHECK(differ == 0);
+        CHECK(all == map.rays());
+        CHECK(all > 5 * model.mesh.patches().size());
+    }
+}
+
 TEST_CASE("Nothing is kept for triangles that are not divided") {
     const Model model(test::furnace_box(4, .5));
     const std::size_t patches = model.mesh.patches().size();

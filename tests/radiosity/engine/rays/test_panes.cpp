@@ -185,9 +185,12 @@ TEST_CASE("Rays end in panes by chance, each ray always alike") {
     const std::vector<std::uint32_t> targets(rays.size(), none);
     std::vector<std::uint8_t> blocked(rays.size());
     two.tracer().occluded_stream(rays, targets, blocked);
+    std::vector<std::uint32_t> pierced(rays.size());
+    two.tracer().count_stream(rays, pierced);
     std::size_t differ = 0, stopped = 0;
     for (std::size_t k = 0; k < rays.size(); ++k) {
         differ += hits[k].facet != facet_hit(two.tracer().closest(rays[k])).facet ? 1 : 0;
+        differ += pierced[k] != two.tracer().count(rays[k]) ? 1 : 0;
         stopped += hits[k].facet == none && blocked[k] != 0 ? 1 : 0; // panes do not block
     }
     CHECK(differ == 0);
