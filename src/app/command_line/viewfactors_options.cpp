@@ -14,6 +14,7 @@ constexpr const char* viewfactors_examples = R"(Examples:
   hemilux viewfactors room.obj --by group --sky -o factors.npz
   hemilux viewfactors room.obj --error 0.5% --of above:0.01 -o factors.npz
   hemilux viewfactors city.stl -o vfsparse.inp.001 -o svf.inp.001
+  hemilux viewfactors room.obj --by group --points seats.txt -o factors.csv --legend rows.csv
   hemilux viewfactors city.stl --of sky -o sky.vtu --legend sky.csv
 )";
 
@@ -62,6 +63,8 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
     add_choice<int>(method, "--up", {{0, "x"}, {1, "y"}, {2, "z"}},
                     "the axis that points to the sky [y for glTF, else z]",
                     [&settings](int axis) { settings.up = axis; });
+    method.add_text("--points", "FILE", settings.points,
+                    "points with normals that get rows of their own: rows x,y,z,nx,ny,nz");
     add_random_options(method, settings.options);
     const Command output = command.under(output_group);
     add_parsed(
@@ -73,10 +76,9 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
         output_from, [&settings](const std::string& path) { settings.outputs.push_back(path); })
         .repeatable()
         .required();
-    add_path(
-        output, "--legend", "FILE",
-        "a table of the surfaces: name, face, group, area, centre, normal, sky, sum of the row",
-        ".csv", [&settings](const std::string& path) { settings.legend = path; });
+    add_path(output, "--legend", "FILE",
+             "a table of the rows: name, face, group, area, centre, normal, sky, sum of the row",
+             ".csv", [&settings](const std::string& path) { settings.legend = path; });
     add_verbosity_options(command, settings.verbosity);
     command.end_help_with(viewfactors_examples);
     return command;

@@ -2,8 +2,10 @@
 
 #include "app/commands/commands.h"
 #include "app/factors/factor_audit.h"
+#include "app/factors/factor_points.h"
 #include "app/factors/factor_run.h"
 #include "app/factors/factor_surfaces.h"
+#include "app/gathering/point_table.h"
 #include "app/loading/load.h"
 #include "app/memory/memory.h"
 #include "app/running/signals.h"
@@ -18,6 +20,7 @@
 #include "bvh/wide/wide_bvh.h"
 #include "io/meshes/factor_cells.h"
 #include "io/results/view_factor_files.h"
+#include "io/results/view_factor_legend.h"
 
 #include <optional>
 
@@ -61,9 +64,19 @@ LoadedSurfaces load_surfaces(const ViewFactorSettings& settings, const RunFiles&
     return {std::move(mesh), settings.up.value_or(view.up.value_or(2)), need};
 }
 
-void check_dense(const ViewFactorSettings& settings, std::size_t rows) {
+/// Reads the file of --points, if there is one.
+std::vector<NamedPoint> points_of(const ViewFactorSettings& settings, const RunFiles& files) {
+    if (settings.points.empty())
+        return {};
+    files.read("file of --points", settings.points);
+    if (is_same_stream(settings.points, settings.scene.path))
+        throw UsageError("--points: '" + settings.points + "' is a pipe, which can be read once");
+    return read_points(settings.points);
+}
+
+void check_dense(const ViewFactorSettings& settings, std::size_t rows, std::size_t points) {
     const auto n = static_cast<double>(rows + (settings.sky ? 1 : 0) + (settings.ground ? 1 : 0));
-    const double bytes = n * n * sizeof(double);
+    const double bytes = n * (n + static_cast<double>(points)) * sizeof(double);
     for (const std::string& path : settings.outputs)
         if (factor_file_of(path) == FactorFile::dense &&
             bytes > ViewFactorSettings::max_dense_bytes)
@@ -111,31 +124,39 @@ int viewfactors(const ViewFactorSettings& settings) {
     if (!settings.legend.empty())
         outputs.push_back(settings.legend);
     const RunFiles files = check_files(outputs, settings.scene.path);
+    const std::vector<NamedPoint> points = points_of(settings, files);
     Monitor monitor;
     InterruptGuard guard;
     const LoadedSurfaces loaded = load_surfaces(settings, files);
     const FactorSurfaces surfaces = factor_surfaces(loaded.mesh, settings.by);
-    check_dense(settings, surfaces.rows.size());
+    check_distances(settings.points, points, loaded.mesh);
+    check_dense(settings, surfaces.rows.size(), points.size());
     check_sky(settings);
     const Stopwatch computing;
     const WideBvh tree(loaded.mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted.own().wished);
     std::optional<Stage> stage(std::in_place, "finding factors", settings.verbosity);
-    const ViewFactors factors = compute_factors(
-        settings,
-        {loaded.mesh, tree, surfaces, loaded.up,
-         memory_guard(loaded.need, settings.scene.memory, settings.scene.path, advice_for_memory)},
-        monitor);
+    const FactorScene scene{
+        loaded.mesh, tree, surfaces, loaded.up,
+        memory_guard(loaded.need, settings.scene.memory, settings.scene.path, advice_for_memory)};
+    const ViewFactors factors = compute_factors(settings, scene, monitor);
+    const double seconds = computing.seconds();
+    const std::vector<FactorPlace> places = places_of(points);
+    const std::vector<PointFactors> point_rows =
+        compute_points(settings, scene, factor_points(places, loaded.mesh, tree), monitor);
     if (monitor.interrupted) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();
     }
-    log_audit(settings, surfaces, factors, computing.seconds());
+    log_audit(settings, surfaces, factors, seconds);
+    log_points(settings, point_rows, computing.seconds() - seconds);
     FactorTable table{factors,
                       surfaces.rows,
                       {},
                       &monitor.interrupted.own().wished,
-                      settings.aim.of != FactorAim::Of::sky};
+                      settings.aim.of != FactorAim::Of::sky,
+                      point_rows,
+                      places};
     if (settings.sky)
         table.columns.push_back(Open::sky);
     if (settings.ground)

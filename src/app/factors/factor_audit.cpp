@@ -153,4 +153,30 @@ void log_audit(const ViewFactorSettings& settings, const FactorSurfaces& surface
     log_turned(settings, surfaces, factors);
 }
 
+void log_points(const ViewFactorSettings& settings, std::span<const PointFactors> points,
+                double seconds) {
+    std::size_t known = 0, exact = 0, factors = 0;
+    double worst = 0, unlisted = 0;
+    for (const PointFactors& point : points) {
+        known += point.is_known ? 1 : 0;
+        unlisted = std::max(unlisted, point.unlisted_bound);
+        for (const double error : point.standard_error) {
+            ++factors;
+            exact += error == 0 ? 1 : 0;
+            worst = std::max(worst, error);
+        }
+    }
+    if (points.empty())
+        return;
+    const std::string left = known < points.size()
+                                 ? "; " + grouped(points.size() - known) + " were not reached"
+                                 : std::string();
+    log_line(
+        settings.verbosity, Verbosity::normal,
+        counted(known, "point", "points") + ": " + grouped(exact) + " of " +
+            counted(factors, "factor", "factors") + " exact, the largest standard error " +
+            formatted("%.2g; not listed are at most %.2g of a row (95 %%), ", worst, unlisted) +
+            duration(seconds) + left);
+}
+
 } // namespace hemilux

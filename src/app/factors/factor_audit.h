@@ -4,7 +4,10 @@
 
 #include "app/factors/factor_surfaces.h"
 #include "app/settings/view_factor_settings.h"
+#include "radiosity/engine/point_views/point_factors.h"
 #include "radiosity/engine/view_factors/view_factors.h"
+
+#include <span>
 
 namespace hemilux {
 
@@ -18,5 +21,9 @@ struct LargestFactors {
 /// Logs all of this, and warns where an error is larger than asked for.
 void log_audit(const ViewFactorSettings& settings, const FactorSurfaces& surfaces,
                const ViewFactors& factors, double seconds);
+
+/// Logs how many points have rows, and how exact these are.
+void log_points(const ViewFactorSettings& settings, std::span<const PointFactors> points,
+                double seconds);
 
 } // namespace hemilux

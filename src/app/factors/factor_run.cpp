@@ -84,4 +84,17 @@ ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScen
     return with_largest(std::max(found.smallest, smallest));
 }
 
+std::vector<PointFactors> compute_points(const ViewFactorSettings& settings,
+                                         const FactorScene& scene,
+                                         std::span<const FactorPoint> points, Monitor& monitor) {
+    const PointFactorOptions options{.error = settings.error,
+                                     .least = settings.aim.least,
+                                     .rays = settings.rays,
+                                     .seed = settings.options.seed,
+                                     .up = scene.up,
+                                     .ask = scene.ask};
+    return point_factors(points, scene.mesh, scene.tree, scene.surfaces.row_of, options,
+                         Workers(settings.options.threads), monitor);
+}
+
 } // namespace hemilux

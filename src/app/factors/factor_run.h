@@ -3,9 +3,12 @@
 
 #include "app/factors/factor_surfaces.h"
 #include "bvh/wide/wide_bvh.h"
+#include "radiosity/engine/point_views/point_factors.h"
 #include "radiosity/engine/view_factors/view_factors.h"
 
 #include <functional>
+#include <span>
+#include <vector>
 
 namespace hemilux {
 
@@ -23,5 +26,12 @@ struct FactorScene {
 /// void if the monitor was interrupted. Throws UsageError for a pair of which one has no surface.
 [[nodiscard]] ViewFactors compute_factors(const ViewFactorSettings& settings,
                                           const FactorScene& scene, Monitor& monitor);
+
+/// Computes the rows of points by `error`, `rays`, seed and threads of the settings; an interrupt
+/// leaves rows unknown.
+[[nodiscard]] std::vector<PointFactors> compute_points(const ViewFactorSettings& settings,
+                                                       const FactorScene& scene,
+                                                       std::span<const FactorPoint> points,
+                                                       Monitor& monitor);
 
 } // namespace hemilux

@@ -30,6 +30,7 @@ struct ViewFactorSettings {
     std::uint32_t rays = 1024;        ///< from each patch, to find who sees whom; a power of two
     bool sky = false, ground = false; ///< they are columns
     std::optional<int> up;            ///< axis; empty: 1 for glTF, else 2
+    std::string points;               ///< file of further rows; empty: none
     std::vector<std::string> outputs;
     std::string legend; ///< path; empty: none
     Provenance from;    ///< provenance of the files

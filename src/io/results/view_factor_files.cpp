@@ -19,34 +19,47 @@ void check_interrupt(const FactorTable& table) {
         throw Interrupted();
 }
 
+/// Calls use(i, j, F, standard error) for what is open of a row, where it is a column.
+template <class Use>
+void for_open(const FactorTable& table, std::uint32_t i, const std::array<OpenShare, opens>& shares,
+              const Use& use) {
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+        const OpenShare& open = shares[static_cast<std::size_t>(table.columns[k])];
+        if (open.factor > 0)
+            use(i, static_cast<std::uint32_t>(table.surfaces.size() + k), open.factor,
+                open.standard_error);
+    }
+}
+
 /// Calls use(i, j, F, standard error) for the entries of a row, those of what is open at its end.
 template <class Use>
 void for_row(const FactorTable& table, std::uint32_t i, const Use& use) {
     const ViewFactors& factors = table.factors;
-    for (std::size_t k = factors.row_begin[i]; k < factors.row_begin[i + 1]; ++k)
-        if (factors.factor[k] > 0)
-            use(i, factors.column[k], factors.factor[k], factors.standard_error[k]);
-    for (std::size_t k = 0; k < table.columns.size(); ++k) {
-        const OpenShare& open = factors.open[i][static_cast<std::size_t>(table.columns[k])];
-        if (open.factor > 0)
-            use(i, static_cast<std::uint32_t>(factors.rows() + k), open.factor,
-                open.standard_error);
+    if (i < factors.rows()) {
+        for (std::size_t k = factors.row_begin[i]; k < factors.row_begin[i + 1]; ++k)
+            if (factors.factor[k] > 0)
+                use(i, factors.column[k], factors.factor[k], factors.standard_error[k]);
+        for_open(table, i, factors.open[i], use);
+    } else if (i >= table.size()) {
+        const PointFactors& point = table.points[i - table.size()];
+        for (std::size_t k = 0; k < point.factor.size(); ++k)
+            if (point.factor[k] > 0)
+                use(i, point.column[k], point.factor[k], point.standard_error[k]);
+        for_open(table, i, point.open, use);
     }
 }
 
 /// Returns at least the number of entries of all rows.
 std::size_t entries_of(const FactorTable& table) {
-    return table.factors.factor.size() + table.columns.size() * table.factors.rows();
+    std::size_t entries = table.factors.factor.size() + table.columns.size() * table.rows();
+    for (const PointFactors& point : table.points)
+        entries += point.factor.size();
+    return entries;
 }
 
 void add(std::string& line, double value) {
     line += ',';
     csv::append_number(line, value);
-}
-
-void add(std::string& line, const std::string& text) {
-    line += ',';
-    csv::append_text(line, text);
 }
 
 template <class Values>
@@ -88,7 +101,7 @@ void write_factor_pairs(const std::string& path, const FactorTable& table) {
     AtomicFile file(path);
     file.write("i,j,F,standard_error\n");
     std::string line;
-    for (std::uint32_t i = 0; i < table.factors.rows(); ++i) {
+    for (std::uint32_t i = 0; i < table.rows(); ++i) {
         check_interrupt(table);
         for_row(table, i,
                 [&](std::uint32_t row, std::uint32_t column, double factor, double error) {
@@ -104,46 +117,7 @@ void write_factor_pairs(const std::string& path, const FactorTable& table) {
     file.commit();
 }
 
-void write_factor_legend(const std::string& path, const FactorTable& table) {
-    AtomicFile file(path);
-    std::string header = "surface,name,face,side,material,group,area,x,y,z,nx,ny,nz";
-    for (std::size_t k = 0; k < opens; ++k) {
-        const std::string name = name_of(static_cast<Open>(k));
-        header += "," + name + "," + name + "_standard_error";
-    }
-    file.write(header + ",row_sum,unlisted_bound\n");
-    for (std::uint32_t i = 0; i < table.factors.rows(); ++i) {
-        const FactorSurface& surface = table.surfaces[i];
-        std::string line;
-        csv::append_number(line, std::uint64_t{i});
-        add(line, surface.name);
-        line += "," + surface.face;
-        add(line, surface.side);
-        add(line, surface.material);
-        add(line, surface.group);
-        add(line, surface.area);
-        csv::append_fields(line, surface.centre);
-        csv::append_fields(line, surface.normal);
-        for (const OpenShare& open : table.factors.open[i]) {
-            add(line, open.factor);
-            add(line, open.standard_error);
-        }
-        if (table.has_pairs) {
-            add(line, table.factors.row_sum(i));
-            add(line, table.factors.unlisted_bound[i]);
-        } else {
-            line += ",,";
-        }
-        file.write(line + '\n');
-    }
-    for (std::size_t k = 0; k < table.columns.size(); ++k)
-        file.write(std::to_string(table.factors.rows() + k) + "," + name_of(table.columns[k]) +
-                   std::string(19, ',') + "\n");
-    file.commit();
-}
-
 void write_factor_npz(const std::string& path, const FactorTable& table, const Provenance& from) {
-    const std::uint64_t rows = table.size();
     std::vector<std::uint64_t> begin(1, 0);
     std::vector<std::uint32_t> column;
     std::vector<double> factor, error;
@@ -151,7 +125,7 @@ void write_factor_npz(const std::string& path, const FactorTable& table, const P
     column.reserve(most);
     factor.reserve(most);
     error.reserve(most);
-    for (std::uint32_t i = 0; i < table.factors.rows(); ++i) {
+    for (std::uint32_t i = 0; i < table.rows(); ++i) {
         for_row(table, i, [&](std::uint32_t, std::uint32_t j, double f, double e) {
             column.push_back(j);
             factor.push_back(f);
@@ -159,7 +133,6 @@ void write_factor_npz(const std::string& path, const FactorTable& table, const P
         });
         begin.push_back(column.size());
     }
-    begin.resize(rows + 1, column.size());
     check_interrupt(table);
     StoredZip zip(path);
     constexpr std::uint64_t largest = 0x7fffffff;
@@ -174,7 +147,7 @@ void write_factor_npz(const std::string& path, const FactorTable& table, const P
         add_array(zip, "indptr", "<i8", begin);
     }
     add_text(zip, "format", "csr");
-    add_array(zip, "shape", "<i8", std::array{rows, rows});
+    add_array(zip, "shape", "<i8", std::array<std::uint64_t, 2>{table.rows(), table.size()});
     add_array(zip, "data", "<f8", factor);
     add_array(zip, "standard_error", "<f8", error);
     std::vector<double> area;
@@ -185,6 +158,8 @@ void write_factor_npz(const std::string& path, const FactorTable& table, const P
     }
     for (const Open open : table.columns)
         names.emplace_back(name_of(open));
+    for (const FactorPlace& place : table.places)
+        names.push_back(place.name);
     add_array(zip, "area", "<f8", area);
     add_texts(zip, "name", names);
     add_text(zip, "seed", std::to_string(from.seed));
@@ -227,15 +202,14 @@ void write_dense_factors(const std::string& path, const FactorTable& table) {
     matrix.column.reserve(entries_of(table));
     matrix.value.reserve(entries_of(table));
     matrix.row_begin.push_back(0);
-    for (std::uint32_t i = 0; i < table.size(); ++i) {
-        if (i < table.factors.rows())
-            for_row(table, i, [&](std::uint32_t, std::uint32_t j, double factor, double) {
-                matrix.column.push_back(j);
-                matrix.value.push_back(factor);
-            });
+    for (std::uint32_t i = 0; i < table.rows(); ++i) {
+        for_row(table, i, [&](std::uint32_t, std::uint32_t j, double factor, double) {
+            matrix.column.push_back(j);
+            matrix.value.push_back(factor);
+        });
         matrix.row_begin.push_back(matrix.column.size());
     }
-    write_npy(path, matrix, table.interrupted);
+    write_npy(path, matrix, table.interrupted, table.size());
 }
 
 } // namespace hemilux

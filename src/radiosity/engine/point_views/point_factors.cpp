@@ -90,6 +90,8 @@ class PointView {
     void trace(std::uint64_t seed);
     [[nodiscard]] ConvexPart directions_of(const ConvexPart& part) const;
     [[nodiscard]] Seen see(const Target& target, std::uint64_t seed);
+    [[nodiscard]] ConvexPart cover_of(std::uint32_t facet, const Target& target) const;
+    [[nodiscard]] bool is_hidden_by_one(const Target& target, const ConvexPart& whole);
     void find_covers(const Target& target, const ConvexPart& part);
     [[nodiscard]] bool cut_out(const ConvexPart& whole);
     [[nodiscard]] Seen by_rays(const Target& target, double free, std::uint64_t seed) const;
@@ -165,6 +167,34 @@ ConvexPart PointView::directions_of(const ConvexPart& part) const {
     return directions;
 }
 
+/// Returns the directions in which a facet lies in front of a target; empty where it does not.
+ConvexPart PointView::cover_of(std::uint32_t facet, const Target& target) const {
+    if (facet == target.facet || facet == point_.facet)
+        return {};
+    const ConvexPart above = in_front(part_of(mesh_.shape_of(facet)), horizon_, height_rounding);
+    if (above.empty())
+        return {};
+    const ConvexPart cover = in_front(above, target.face.plane, height_rounding);
+    return cover.empty() ? cover : directions_of(cover);
+}
+
+/// Returns whether the facet that hides the middle of a target hides all of it, as most of those do
+/// that are not seen.
+bool PointView::is_hidden_by_one(const Target& target, const ConvexPart& whole) {
+    Vec3 middle(0.0);
+    for (const Vec3& corner : whole.corners())
+        middle += corner / static_cast<double>(whole.size);
+    const auto hit = tree_.closest({.origin = point_.position,
+                                    .direction = frame_.to_world(middle),
+                                    .t_max = 1,
+                                    .from = point_.facet});
+    if (!hit)
+        return false;
+    const ConvexPart cover = cover_of(hit->facet, target);
+    seen_.begin(whole);
+    return !cover.empty() && seen_.hide(cover) && seen_.pieces().empty();
+}
+
 /// Collects what lies in front of a target, the largest first.
 void PointView::find_covers(const Target& target, const ConvexPart& part) {
     Shaft room;
@@ -190,19 +220,9 @@ void PointView::find_covers(const Target& target, const ConvexPart& part) {
     near_.clear();
     covers_.clear();
     tree_.facets_within(room, near_);
-    for (const std::uint32_t facet : near_) {
-        if (facet == target.facet || facet == point_.facet)
-            continue;
-        const ConvexPart above =
-            in_front(part_of(mesh_.shape_of(facet)), horizon_, height_rounding);
-        if (above.empty())
-            continue;
-        const ConvexPart cover = in_front(above, plane, height_rounding);
-        if (cover.empty())
-            continue;
-        const ConvexPart directions = directions_of(cover);
-        covers_.push_back({directions, factor_of(directions)});
-    }
+    for (const std::uint32_t facet : near_)
+        if (const ConvexPart directions = cover_of(facet, target); !directions.empty())
+            covers_.push_back({directions, factor_of(directions)});
     std::ranges::stable_sort(covers_, std::greater<>(), &Cover::factor);
 }
 
@@ -255,6 +275,8 @@ Seen PointView::see(const Target& target, std::uint64_t seed) {
     const ConvexPart whole = directions_of(part);
     const double free = factor_of(whole);
     if (!(free > 0))
+        return {};
+    if (is_hidden_by_one(target, whole))
         return {};
     find_covers(target, part);
     if (!cut_out(whole))
@@ -355,12 +377,17 @@ std::vector<PointFactors> point_factors(std::span<const FactorPoint> points, con
     std::vector<PointFactors> rows(points.size());
     monitor.step_share = 0;
     monitor.phase = "points";
-    std::atomic<std::size_t> done{0};
+    constexpr double bytes_of_entry = 2 * (sizeof(std::uint32_t) + 2 * sizeof(double)); // and files
+    std::atomic<std::size_t> done{0}, entries{0};
     workers.for_chunks_with(
         points.size(), 1, [&] { return PointView(mesh, tree, targets, options); },
         [&](PointView& view, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
+            for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
                 rows[i] = view.row_of(points[i], i);
+                const std::size_t sum = entries += rows[i].column.size();
+                if (options.ask)
+                    options.ask(bytes_of_entry * static_cast<double>(sum));
+            }
             monitor.step_share =
                 static_cast<double>(done += end - begin) / static_cast<double>(points.size());
         });

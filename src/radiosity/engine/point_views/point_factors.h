@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -48,6 +49,9 @@ struct PointFactorOptions {
     std::uint32_t rays = 1024;        ///< from a point, that look for small facets; a power of two
     std::uint64_t seed = 1;
     int up = 2; ///< axis that points to the sky
+    /// Is called as rows are found, from all threads, with the bytes of those found so far. What it
+    /// throws ends the work.
+    std::function<void(double bytes)> ask = {};
 };
 
 /// Finds the rows of all points. row_of[patch] says to which surface a patch belongs. The result

@@ -1,0 +1,87 @@
+#include "io/results/view_factor_legend.h"
+
+#include "io/files/atomic_file.h"
+#include "io/results/csv.h"
+
+#include <array>
+#include <optional>
+
+namespace hemilux {
+namespace {
+
+void append_field(std::string& line, double value) {
+    line += ',';
+    csv::append_number(line, value);
+}
+
+void append_field(std::string& line, const std::string& text) {
+    line += ',';
+    csv::append_text(line, text);
+}
+
+std::string legend_header() {
+    std::string header = "surface,name,face,side,material,group,area,x,y,z,nx,ny,nz";
+    for (std::size_t k = 0; k < opens; ++k) {
+        const std::string name = name_of(static_cast<Open>(k));
+        header += "," + name + "," + name + "_standard_error";
+    }
+    return header + ",row_sum,unlisted_bound";
+}
+
+void append_shares(std::string& line, const std::array<OpenShare, opens>& shares) {
+    for (const OpenShare& open : shares) {
+        append_field(line, open.factor);
+        append_field(line, open.standard_error);
+    }
+}
+
+std::string row_of_surface(const FactorTable& table, std::uint32_t i) {
+    const FactorSurface& surface = table.surfaces[i];
+    std::string line = std::to_string(i);
+    append_field(line, surface.name);
+    line += "," + surface.face;
+    append_field(line, surface.side);
+    append_field(line, surface.material);
+    append_field(line, surface.group);
+    append_field(line, surface.area);
+    csv::append_fields(line, surface.centre);
+    csv::append_fields(line, surface.normal);
+    append_shares(line, table.factors.open[i]);
+    if (!table.has_pairs)
+        return line + ",,";
+    append_field(line, table.factors.row_sum(i));
+    append_field(line, table.factors.unlisted_bound[i]);
+    return line;
+}
+
+std::string row_of_point(const FactorTable& table, std::size_t k) {
+    const PointFactors& point = table.points[k];
+    std::string line = std::to_string(table.size() + k);
+    append_field(line, table.places[k].name);
+    line += ",,,,,"; // face, side, material, group and area
+    csv::append_fields(line, table.places[k].position);
+    csv::append_fields(line, table.places[k].normal);
+    if (!point.is_known)
+        return line + std::string(2 * opens + 2, ',');
+    append_shares(line, point.open);
+    append_field(line, point.sum());
+    append_field(line, point.unlisted_bound);
+    return line;
+}
+
+} // namespace
+
+void write_factor_legend(const std::string& path, const FactorTable& table) {
+    AtomicFile file(path);
+    file.write(legend_header() + "\n");
+    for (std::uint32_t i = 0; i < table.factors.rows(); ++i)
+        file.write(row_of_surface(table, i) + "\n");
+    for (std::size_t k = 0; k < table.columns.size(); ++k)
+        file.write(std::to_string(table.factors.rows() + k) + "," + name_of(table.columns[k]) +
+                   std::string(19, ',') + "\n");
+    for (std::size_t k = 0; k < table.points.size(); ++k)
+        file.write(row_of_point(table, k) + "\n");
+    file.commit();
+}
+
+} // namespace hemilux
