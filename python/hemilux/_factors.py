@@ -15,6 +15,41 @@ OPEN = ("sky", "ground", "back")
 _Path = Union[str, "os.PathLike[str]"]
 
 
+class PointFactors:
+    """View factors from points with normals: the share of what a facet at each sends out.
+
+    Rows sum to 1 with sky, ground and backs.
+
+    Attributes
+    ----------
+    matrix : scipy.sparse.csr_matrix of float64, shape (p, n)
+        View factors from each point to each surface [-].
+    standard_error : scipy.sparse.csr_matrix of float64
+        Of each factor [-], with the same entries; 0: the factor is exact.
+    sky, ground, back : ndarray of float64, shape (p,)
+        Shares that leave the scene upwards and downwards, and that meet backs of one-sided faces [-].
+    sky_standard_error, ground_standard_error, back_standard_error : ndarray of float64, shape (p,)
+        Their standard errors [-].
+    unlisted_bound : ndarray of float64, shape (p,)
+        The sum of the factors of a row that are not listed is below this in 95 of 100 rows [-].
+    """
+
+    def __init__(self, found: dict[str, Any], surfaces: int) -> None:
+        self.unlisted_bound = found["unlisted_bound"]
+        self.matrix, self.standard_error = (
+            scipy.sparse.csr_matrix((found[data], found["indices"], found["indptr"]),
+                                    (len(self), surfaces)) for data in ("data", "standard_error"))
+        self.sky, self.ground, self.back = np.ascontiguousarray(found["open"].T)
+        self.sky_standard_error, self.ground_standard_error, self.back_standard_error = \
+            np.ascontiguousarray(found["open_standard_error"].T)
+
+    def __len__(self) -> int:
+        return len(self.unlisted_bound)
+
+    def __repr__(self) -> str:
+        return f"<hemilux.PointFactors of {len(self)} points, {self.matrix.nnz} factors>"
+
+
 class ViewFactors:
     """A matrix of view factors: F[i, j] is the share of what surface i sends out that reaches j.
 
@@ -41,7 +76,11 @@ class ViewFactors:
         The sum of the factors of a row that are not listed is below this in 95 of 100 rows [-].
     audit : dict of str to float
         How well the factors agreed before rows were closed; `view_factors` explains its keys.
+    points : PointFactors or None
+        The rows of points, where ``points=`` has some. Files and sums over groups leave them out.
     """
+
+    points: Optional[PointFactors] = None
 
     def __init__(self, factors: scipy.sparse.csr_matrix, errors: scipy.sparse.csr_matrix,
                  area: np.ndarray, name: list[str], shares: dict[str, Optional[np.ndarray]],
@@ -168,8 +207,8 @@ class ViewFactors:
         with np.load(os.fspath(path)) as file:
             size = len(file["area"])
             name = [text.decode("utf-8") for text in file["name"].tolist()]
-            columns = tuple(name[size:])
             shape = tuple(file["shape"].tolist())
+            columns = tuple(name[size:shape[1]])
             matrix, errors = (scipy.sparse.csr_matrix((file[data], file["indices"], file["indptr"]),
                                                       shape) for data in ("data", "standard_error"))
             shares: dict[str, Optional[np.ndarray]] = {}

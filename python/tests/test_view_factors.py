@@ -120,6 +120,20 @@ def test_a_file_gives_back_what_was_saved(tmp_path):
             found.save(tmp_path / name)
 
 
+def test_points_have_rows_of_their_own():
+    x, y = np.meshgrid([.2, .5], [.3, .5])
+    places = np.stack([x, y, 0 * x, 0 * x, 0 * x, 0 * x + 2], -1).reshape(-1, 6)
+    found = hemilux.view_factors(squares("ceiling", "wall"), points=places).points
+    assert (found.matrix.shape, len(found)) == ((4, 2), 4)
+    corner = 0.5 / np.sqrt(1.25)
+    assert found.matrix[3, 0] == pytest.approx(4 / np.pi * corner * np.arctan(corner), abs=1e-12)
+    total = np.asarray(found.matrix.sum(axis=1)).ravel() + found.sky + found.ground + found.back
+    assert total == pytest.approx(np.ones(4), abs=1e-12)
+    assert not found.standard_error.data.any() and not found.unlisted_bound.any()
+    assert not found.sky_standard_error.any()
+    assert hemilux.view_factors(squares("ceiling")).points is None
+
+
 @pytest.mark.skipif(not PROGRAM, reason="the program is not named by HEMILUX_PROGRAM")
 def test_the_program_finds_the_same_bytes(tmp_path):
     corners = np.concatenate(list(UNIT_SQUARES.values()) + [[[.3, .3, .5], [.7, .3, .5],
@@ -166,6 +180,8 @@ def test_turned_faces_are_named():
     (dict(rays=1024.0), "rays: expected a whole number"),
     (dict(threads=-1), "threads: expected a whole number from 0"),
     (dict(seed=-1), "seed: expected a whole number from 0"),
+    (dict(points=[[0, 0, 0]]), "points: expected rows of six numbers"),
+    (dict(points=[[0, 0, 0, 0, 0, 0]]), "points: expected a normal"),
     (dict(up="w"), "up: expected 'x', 'y' or 'z'"),
 ])
 def test_what_is_wrong_is_named(arguments, message):

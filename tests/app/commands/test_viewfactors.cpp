@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <sstream>
 #include <vector>
@@ -191,6 +192,46 @@ TEST_CASE("viewfactors of the sky alone computes no other factors") {
     CHECK(std::stod(legend[1][14]) < .005 * .2);
     CHECK(legend[1][19].empty()); // the sum of the row is not known
     test::check_fails(place, 1, "viewfactors box.obj --of sky -o a.csv", "svf.inp... or .vtu");
+}
+
+TEST_CASE("viewfactors --points adds rows that are exact and sum to 1") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    place.write("points.txt", "x,y,z,nx,ny,nz\n.5,.5,0,0,0,1 # on the floor\n.5 .5 .5 0 2 0\n");
+    const auto outcome = place.hemilux("viewfactors box.obj --by group --sky --points points.txt "
+                                       "-o f.csv -o f.npz -o f.npy --legend s.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("2 points: 3 of 3 factors exact"));
+    const auto factors = factors_of(place.read("f.csv"));
+    // Rows are floor, walls, sky and the points. From the middle of the floor a square at the
+    // height 1 has the factor 2 / pi sqrt(.2) atan(sqrt(.2)) times 2 (Howell's catalogue, B-3).
+    CHECK(factors.at({3, 2}) ==
+          Approx(4 / 3.14159265358979 * std::sqrt(.2) * std::atan(std::sqrt(.2))));
+    CHECK(factors.at({3, 1}) == Approx(1 - factors.at({3, 2})));
+    CHECK(sum_of_row(factors, 4) == Approx(1).margin(1e-12));
+    CHECK(factors.at({4, 0}) == Approx(factors.at({4, 2}))); // as high above as below
+    const auto legend = rows_of(place.read("s.csv"));
+    REQUIRE(legend.size() == 1 + 5);
+    CHECK(legend[4][1] == "point 0");
+    CHECK(legend[5][0] == "4");
+    CHECK(legend[5][11] == "2"); // the normal as it was given
+    CHECK(std::stod(legend[5][13]) == Approx(factors.at({4, 2})));
+    CHECK(legend[4].size() == legend[0].size());
+    CHECK(place.read("f.npy").size() == 128 + 5 * 3 * 8);
+    CHECK_THAT(place.read("f.npy"), Contains("'shape': (5, 3)"));
+    CHECK_THAT(place.read("f.npz"), Contains("point 1"));
+    const auto fails = [&](const std::string& points, const std::string& message) {
+        place.write("bad.txt", points);
+        test::check_fails(place, 2, "viewfactors box.obj --points bad.txt -o g.csv", message);
+    };
+    fails("1 2 3\n", "bad.txt:1: expected six numbers");
+    fails("0 0 0 0 0 1\n0 0 0 0 0 0\n", "bad.txt:2: expected a normal");
+    fails("0 0 1e9 0 0 1\n", "bad.txt:1: expected a point near the scene");
+    test::check_fails(place, 2, "viewfactors box.obj --points none.txt -o g.csv", "none.txt");
+    test::check_fails(place, 1,
+                      "viewfactors box.obj --points points.txt -o ./points.csv "
+                      "--legend points.csv",
+                      "named twice");
 }
 
 TEST_CASE("viewfactors says what is wrong with what it is asked") {
