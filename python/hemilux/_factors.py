@@ -71,7 +71,8 @@ class ViewFactors:
         Shares that leave the scene upwards and downwards, and that meet backs of one-sided faces
         [-]. None where a loaded file does not have them.
     sky_standard_error, ground_standard_error, back_standard_error : ndarray of float64, or None
-        Their standard errors [-]; 0 where no ray of a surface tells that its rest has two parts.
+        Their standard errors [-]. Where no ray went one way, half of what is possible in 95 % of all
+        cases.
     unlisted_bound : ndarray of float64, shape (n,), or None
         The sum of the factors of a row that are not listed is below this in 95 of 100 rows [-].
     audit : dict of str to float

@@ -17,8 +17,8 @@ def _error_reached(factors: ViewFactors, of: str, least: float) -> float:
     """Return the error that ``of`` means, as the program reports it."""
     matrix, errors = factors._factors, factors._errors
     if of == "sky":
-        return max((float(np.max(factors._shares[k + "_standard_error"]
-                                 / np.maximum(factors._shares[k], 0.01), initial=0))
+        return max((float(np.max(np.where(factors._shares[k] > 0, factors._shares[k + "_standard_error"]
+                                          / np.maximum(factors._shares[k], 0.01), 0), initial=0))
                     for k in OPEN[:2]))
     if of == "rows":
         return float(np.sqrt(np.max(np.asarray(errors.power(2).sum(axis=1)), initial=0)))

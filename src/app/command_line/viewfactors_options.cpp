@@ -25,6 +25,16 @@ std::optional<std::uint32_t> rays_from(const std::string& text) {
                : std::nullopt;
 }
 
+std::optional<SkyDivision> bands_from(const std::string& text) {
+    constexpr std::uint64_t most = 90;
+    if (text == "tregenza")
+        return SkyDivision{};
+    const std::optional<std::uint64_t> steps = parse_whole(text);
+    return steps && *steps >= 1 && *steps <= most
+               ? std::optional(SkyDivision{static_cast<unsigned>(*steps)})
+               : std::nullopt;
+}
+
 std::optional<std::string> output_from(const std::string& path) {
     return factor_file_of(path) ? std::optional(path) : std::nullopt;
 }
@@ -58,6 +68,15 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
                "a power of two from 256 to 1048576", rays_from,
                [&settings](std::uint32_t rays) { settings.rays = rays; });
     method.add_flag("--sky", settings.sky, "make the sky a column: what leaves the scene upwards");
+    add_parsed(
+        method, "--sky-bands", "N|tregenza",
+        "divide the column of the sky into N bands of equal altitude, or into the 145 patches "
+        "of Tregenza",
+        "a whole number from 1 to 90 or tregenza", bands_from,
+        [&settings](const SkyDivision& division) {
+            settings.sky_bands = division;
+            settings.sky = true;
+        });
     method.add_flag("--ground", settings.ground,
                     "make the ground a column: what leaves the scene downwards");
     add_choice<int>(method, "--up", {{0, "x"}, {1, "y"}, {2, "z"}},

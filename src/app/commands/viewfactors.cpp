@@ -36,13 +36,22 @@ struct LoadedSurfaces {
     MemoryNeed need; ///< but for the pairs, whose number the rays find
 };
 
+std::optional<SkyBands> bands_of(const ViewFactorSettings& settings, int up) {
+    if (!settings.sky_bands)
+        return {};
+    return settings.sky_bands->steps > 0 ? SkyBands::of_equal_steps(settings.sky_bands->steps, up)
+                                         : SkyBands::tregenza(up);
+}
+
 /// Returns the need but for the pairs: planes and names of surfaces, and what threads look at.
 MemoryNeed need_of(const Scene& scene, const ViewFactorSettings& settings) {
-    constexpr double per_patch = 1500, of_thread = 16e6;
+    constexpr double per_patch = 1500, of_thread = 16e6, per_band = 2 * sizeof(OpenShare);
     const double patches = patches_of(scene, settings.scene.mesh);
     MemoryNeed need = memory_need(scene, settings.scene.mesh, settings.options, {});
     need.method = Workers(settings.options.threads).threads() * of_thread;
-    need.results = per_patch * patches;
+    const std::optional<SkyBands> bands = bands_of(settings, 0);
+    need.results =
+        (per_patch + (bands ? per_band * static_cast<double>(bands->size()) : 0)) * patches;
     return need;
 }
 
@@ -74,8 +83,10 @@ std::vector<NamedPoint> points_of(const ViewFactorSettings& settings, const RunF
     return read_points(settings.points);
 }
 
-void check_dense(const ViewFactorSettings& settings, std::size_t rows, std::size_t points) {
-    const auto n = static_cast<double>(rows + (settings.sky ? 1 : 0) + (settings.ground ? 1 : 0));
+void check_dense(const ViewFactorSettings& settings, std::size_t rows, std::size_t points,
+                 const std::optional<SkyBands>& bands) {
+    const std::size_t sky = bands ? bands->size() : settings.sky ? 1 : 0;
+    const auto n = static_cast<double>(rows + sky + (settings.ground ? 1 : 0));
     const double bytes = n * (n + static_cast<double>(points)) * sizeof(double);
     for (const std::string& path : settings.outputs)
         if (factor_file_of(path) == FactorFile::dense &&
@@ -129,16 +140,21 @@ int viewfactors(const ViewFactorSettings& settings) {
     InterruptGuard guard;
     const LoadedSurfaces loaded = load_surfaces(settings, files);
     const FactorSurfaces surfaces = factor_surfaces(loaded.mesh, settings.by);
+    const std::optional<SkyBands> bands = bands_of(settings, loaded.up);
     check_distances(settings.points, points, loaded.mesh);
-    check_dense(settings, surfaces.rows.size(), points.size());
+    check_dense(settings, surfaces.rows.size(), points.size(), bands);
     check_sky(settings);
     const Stopwatch computing;
     const WideBvh tree(loaded.mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted.own().wished);
     std::optional<Stage> stage(std::in_place, "finding factors", settings.verbosity);
     const FactorScene scene{
-        loaded.mesh, tree, surfaces, loaded.up,
-        memory_guard(loaded.need, settings.scene.memory, settings.scene.path, advice_for_memory)};
+        loaded.mesh,
+        tree,
+        surfaces,
+        loaded.up,
+        memory_guard(loaded.need, settings.scene.memory, settings.scene.path, advice_for_memory),
+        bands ? &*bands : nullptr};
     const ViewFactors factors = compute_factors(settings, scene, monitor);
     const double seconds = computing.seconds();
     const std::vector<FactorPlace> places = places_of(points);
@@ -156,7 +172,8 @@ int viewfactors(const ViewFactorSettings& settings) {
                       &monitor.interrupted.own().wished,
                       settings.aim.of != FactorAim::Of::sky,
                       point_rows,
-                      places};
+                      places,
+                      scene.bands};
     if (settings.sky)
         table.columns.push_back(Open::sky);
     if (settings.ground)

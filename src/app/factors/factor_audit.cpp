@@ -48,8 +48,9 @@ void log_error(const ViewFactorSettings& settings, const FactorSurfaces& surface
         constexpr double least = .01;
         for (const auto& open : factors.open)
             for (std::size_t k = 0; k < 2; ++k)
-                reached =
-                    std::max(reached, open[k].standard_error / std::max(open[k].factor, least));
+                if (open[k].factor > 0)
+                    reached =
+                        std::max(reached, open[k].standard_error / std::max(open[k].factor, least));
         text = "sky and ground: " + percent(reached) +
                " of each at most, or of 0.01 where it is smaller";
         break;

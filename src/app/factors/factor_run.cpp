@@ -2,6 +2,7 @@
 
 #include "app/factors/factor_audit.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/view_factors/row_rays.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 
@@ -56,19 +57,22 @@ ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScen
                                       .tolerance = tolerance_of(settings, scene.surfaces, largest),
                                       .seed = settings.options.seed,
                                       .up = scene.up,
+                                      .bands = scene.bands,
                                       .ask = scene.ask};
         return view_factors(scene.mesh, scene.tree, scene.surfaces.row_of,
                             scene.surfaces.rows.size(), options, workers, monitor);
     };
     if (settings.aim.of == FactorAim::Of::sky) {
-        const OpenViews views = find_open_views(scene.mesh, scene.tree, settings.error,
-                                                settings.options.seed, scene.up, workers, monitor);
+        const OpenViews views =
+            find_open_views(scene.mesh, scene.tree, settings.error, settings.options.seed, scene.up,
+                            scene.bands, workers, monitor);
         ExchangeList list;
         for (const Patch& patch : scene.mesh.patches())
             list.area.push_back(patch.area);
         list.pairs.resize(list.area.size());
         list.unlisted_bound.resize(list.area.size());
         list.open = views.open;
+        list.bands = views.bands;
         ViewFactors factors =
             sum_over_rows(list, scene.surfaces.row_of, scene.surfaces.rows.size());
         factors.work.rays = views.rays;
@@ -92,6 +96,7 @@ std::vector<PointFactors> compute_points(const ViewFactorSettings& settings,
                                      .rays = settings.rays,
                                      .seed = settings.options.seed,
                                      .up = scene.up,
+                                     .bands = scene.bands,
                                      .ask = scene.ask};
     return point_factors(points, scene.mesh, scene.tree, scene.surfaces.row_of, options,
                          Workers(settings.options.threads), monitor);

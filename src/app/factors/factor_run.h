@@ -19,6 +19,7 @@ struct FactorScene {
     const FactorSurfaces& surfaces;
     int up;                                     ///< axis that points to the sky
     std::function<void(double bytes)> ask = {}; ///< ExchangeOptions::ask
+    const SkyBands* bands = nullptr;            ///< parts of the sky, if they are asked for
 };
 
 /// Computes the factors by `error`, `aim`, `rays`, seed and threads of the settings. With `largest`

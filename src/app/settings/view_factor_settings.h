@@ -21,6 +21,11 @@ struct FactorAim {
     std::string from, to; ///< of `pair`: names of surfaces
 };
 
+/// How the sky is divided into columns.
+struct SkyDivision {
+    unsigned steps = 0; ///< of altitude; 0: the patches of Tregenza
+};
+
 struct ViewFactorSettings {
     SceneSettings scene;
     SolveOptions options; ///< seed, threads
@@ -29,8 +34,9 @@ struct ViewFactorSettings {
     FactorAim aim;                    ///< what it is of
     std::uint32_t rays = 1024;        ///< from each patch, to find who sees whom; a power of two
     bool sky = false, ground = false; ///< they are columns
-    std::optional<int> up;            ///< axis; empty: 1 for glTF, else 2
-    std::string points;               ///< file of further rows; empty: none
+    std::optional<SkyDivision> sky_bands;
+    std::optional<int> up; ///< axis; empty: 1 for glTF, else 2
+    std::string points;    ///< file of further rows; empty: none
     std::vector<std::string> outputs;
     std::string legend; ///< path; empty: none
     Provenance from;    ///< provenance of the files

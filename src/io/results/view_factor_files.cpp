@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <iterator>
 
 namespace hemilux {
 namespace {
@@ -22,13 +23,18 @@ void check_interrupt(const FactorTable& table) {
 /// Calls use(i, j, F, standard error) for what is open of a row, where it is a column.
 template <class Use>
 void for_open(const FactorTable& table, std::uint32_t i, const std::array<OpenShare, opens>& shares,
-              const Use& use) {
-    for (std::size_t k = 0; k < table.columns.size(); ++k) {
-        const OpenShare& open = shares[static_cast<std::size_t>(table.columns[k])];
+              std::span<const OpenShare> bands, const Use& use) {
+    auto column = static_cast<std::uint32_t>(table.surfaces.size());
+    const auto add = [&](const OpenShare& open) {
         if (open.factor > 0)
-            use(i, static_cast<std::uint32_t>(table.surfaces.size() + k), open.factor,
-                open.standard_error);
-    }
+            use(i, column, open.factor, open.standard_error);
+        ++column;
+    };
+    for (const Open open : table.columns)
+        if (open == Open::sky && table.bands)
+            std::ranges::for_each(bands, add);
+        else
+            add(shares[static_cast<std::size_t>(open)]);
 }
 
 /// Calls use(i, j, F, standard error) for the entries of a row, those of what is open at its end.
@@ -39,22 +45,27 @@ void for_row(const FactorTable& table, std::uint32_t i, const Use& use) {
         for (std::size_t k = factors.row_begin[i]; k < factors.row_begin[i + 1]; ++k)
             if (factors.factor[k] > 0)
                 use(i, factors.column[k], factors.factor[k], factors.standard_error[k]);
-        for_open(table, i, factors.open[i], use);
-    } else if (i >= table.size()) {
-        const PointFactors& point = table.points[i - table.size()];
+        for_open(table, i, factors.open[i], factors.bands_of(i), use);
+    } else if (const std::size_t size = table.size(); i >= size) {
+        const PointFactors& point = table.points[i - size];
         for (std::size_t k = 0; k < point.factor.size(); ++k)
             if (point.factor[k] > 0)
                 use(i, point.column[k], point.factor[k], point.standard_error[k]);
-        for_open(table, i, point.open, use);
+        for_open(table, i, point.open, point.bands, use);
     }
 }
 
 /// Returns at least the number of entries of all rows.
 std::size_t entries_of(const FactorTable& table) {
-    std::size_t entries = table.factors.factor.size() + table.columns.size() * table.rows();
+    std::size_t entries =
+        table.factors.factor.size() + (table.size() - table.surfaces.size()) * table.rows();
     for (const PointFactors& point : table.points)
         entries += point.factor.size();
     return entries;
+}
+
+std::uint32_t row_count(const FactorTable& table) {
+    return static_cast<std::uint32_t>(table.rows());
 }
 
 void add(std::string& line, double value) {
@@ -97,11 +108,22 @@ const char* name_of(Open open) {
     return names[static_cast<std::size_t>(open)];
 }
 
+std::vector<std::string> FactorTable::column_names() const {
+    std::vector<std::string> names;
+    for (const Open open : columns)
+        if (open == Open::sky && bands)
+            for (std::size_t k = 0; k < bands->size(); ++k)
+                names.push_back(bands->name(k));
+        else
+            names.emplace_back(name_of(open));
+    return names;
+}
+
 void write_factor_pairs(const std::string& path, const FactorTable& table) {
     AtomicFile file(path);
     file.write("i,j,F,standard_error\n");
     std::string line;
-    for (std::uint32_t i = 0; i < table.rows(); ++i) {
+    for (std::uint32_t i = 0, rows = row_count(table); i < rows; ++i) {
         check_interrupt(table);
         for_row(table, i,
                 [&](std::uint32_t row, std::uint32_t column, double factor, double error) {
@@ -125,7 +147,7 @@ void write_factor_npz(const std::string& path, const FactorTable& table, const P
     column.reserve(most);
     factor.reserve(most);
     error.reserve(most);
-    for (std::uint32_t i = 0; i < table.rows(); ++i) {
+    for (std::uint32_t i = 0, rows = row_count(table); i < rows; ++i) {
         for_row(table, i, [&](std::uint32_t, std::uint32_t j, double f, double e) {
             column.push_back(j);
             factor.push_back(f);
@@ -156,8 +178,7 @@ void write_factor_npz(const std::string& path, const FactorTable& table, const P
         area.push_back(surface.area);
         names.push_back(surface.name);
     }
-    for (const Open open : table.columns)
-        names.emplace_back(name_of(open));
+    std::ranges::copy(table.column_names(), std::back_inserter(names));
     for (const FactorPlace& place : table.places)
         names.push_back(place.name);
     add_array(zip, "area", "<f8", area);
@@ -202,7 +223,7 @@ void write_dense_factors(const std::string& path, const FactorTable& table) {
     matrix.column.reserve(entries_of(table));
     matrix.value.reserve(entries_of(table));
     matrix.row_begin.push_back(0);
-    for (std::uint32_t i = 0; i < table.rows(); ++i) {
+    for (std::uint32_t i = 0, rows = row_count(table); i < rows; ++i) {
         for_row(table, i, [&](std::uint32_t, std::uint32_t j, double factor, double) {
             matrix.column.push_back(j);
             matrix.value.push_back(factor);

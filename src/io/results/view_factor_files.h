@@ -4,6 +4,7 @@
 
 #include "io/files/provenance.h"
 #include "radiosity/engine/point_views/point_factors.h"
+#include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/engine/view_factors/view_factors.h"
 
 #include <cstdint>
@@ -37,9 +38,12 @@ struct FactorTable {
     bool has_pairs = true;                     ///< false: only what is open was computed
     std::span<const PointFactors> points = {}; ///< further rows, which have no columns
     std::span<const FactorPlace> places = {};  ///< by point
+    const SkyBands* bands = nullptr; ///< parts of the sky; where it is a column, they are instead
 
     /// Returns the number of columns, which are rows too: points follow them.
-    [[nodiscard]] std::size_t size() const { return surfaces.size() + columns.size(); }
+    [[nodiscard]] std::size_t size() const { return surfaces.size() + column_names().size(); }
+    /// Returns the names of the columns that follow the surfaces.
+    [[nodiscard]] std::vector<std::string> column_names() const;
     [[nodiscard]] std::size_t rows() const { return size() + points.size(); }
 };
 

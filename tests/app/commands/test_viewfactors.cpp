@@ -234,6 +234,48 @@ TEST_CASE("viewfactors --points adds rows that are exact and sum to 1") {
                       "named twice");
 }
 
+TEST_CASE("viewfactors --sky-bands divides the column of the sky") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    place.write("points.txt", ".5,.5,0,0,0,1\n");
+    for (const char* bands : {"6", "tregenza"}) {
+        const std::size_t count = bands[0] == '6' ? 6 : 145;
+        REQUIRE(place
+                    .hemilux("viewfactors box.obj -q --by group --ground --points points.txt "
+                             "--sky-bands " +
+                             std::string(bands) + " -o f.csv -o f.npz --legend s.csv")
+                    .code == 0);
+        const auto factors = factors_of(place.read("f.csv"));
+        const auto legend = rows_of(place.read("s.csv"));
+        REQUIRE(legend.size() == 1 + 2 + count + 1 + 1);
+        for (const auto& row : legend)
+            CHECK(row.size() == 21 + 2 * count);
+        const int ground = 2 + static_cast<int>(count);
+        CHECK(legend[static_cast<std::size_t>(ground) + 1][1] == "ground");
+        for (const std::size_t row : {std::size_t{1}, legend.size() - 1}) {
+            const int i = std::stoi(legend[row][0]);
+            double of_legend = 0, of_matrix = 0;
+            for (std::size_t k = 0; k < count; ++k) {
+                of_legend += std::stod(legend[row][21 + 2 * k]);
+                CHECK(std::stod(legend[row][22 + 2 * k]) > 0);
+            }
+            for (const auto& [pair, factor] : factors)
+                of_matrix += pair[0] == i && pair[1] >= 2 && pair[1] < ground ? factor : 0;
+            CHECK(of_legend == Approx(std::stod(legend[row][13])));
+            CHECK(of_matrix == Approx(of_legend));
+            CHECK(sum_of_row(factors, i) == Approx(1).margin(1e-12));
+        }
+    }
+    CHECK(rows_of(place.read("s.csv"))[3 + 1][1] == "sky 2");
+    REQUIRE(place.hemilux("viewfactors box.obj -q --of sky --sky-bands 3 -o a.vtu --legend t.csv")
+                .code == 0);
+    CHECK_THAT(place.read("t.csv"), Contains(",sky 0-30,sky 0-30 standard error,sky 30-60"));
+    for (const char* bands : {"0", "91", "2.5", "reinhart"})
+        test::check_fails(place, 1,
+                          "viewfactors box.obj -o a.csv --sky-bands " + std::string(bands),
+                          "a whole number from 1 to 90 or tregenza");
+}
+
 TEST_CASE("viewfactors says what is wrong with what it is asked") {
     const Workplace place;
     place.write("box.obj", open_box);

@@ -5,6 +5,7 @@
 #include "radiosity/engine/point_views/seen_part.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/view_factors/free_exchange.h"
+#include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
@@ -88,6 +89,7 @@ class PointView {
     };
     void find_candidates(std::uint64_t seed);
     void trace(std::uint64_t seed);
+    [[nodiscard]] std::vector<OpenShare> find_bands(double sky, std::uint64_t seed);
     [[nodiscard]] ConvexPart directions_of(const ConvexPart& part) const;
     [[nodiscard]] Seen see(const Target& target, std::uint64_t seed);
     [[nodiscard]] ConvexPart cover_of(std::uint32_t facet, const Target& target) const;
@@ -126,9 +128,6 @@ void PointView::trace(std::uint64_t seed) {
     }
     hits_.resize(rays_.size());
     tree_.closest_stream(rays_, hits_);
-    for (const FacetHit& hit : hits_)
-        if (hit.facet != none)
-            is_hit_[hit.facet] = true;
 }
 
 /// Lists the targets that count, or that a ray hit.
@@ -150,6 +149,9 @@ void PointView::find_candidates(std::uint64_t seed) {
     if (small_.empty())
         return;
     trace(seed);
+    for (const FacetHit& hit : hits_)
+        if (hit.facet != none)
+            is_hit_[hit.facet] = true;
     for (const std::uint32_t t : small_)
         if (is_hit_[targets_[t].facet])
             candidates_.push_back(t);
@@ -355,7 +357,22 @@ PointFactors PointView::row_of(const FactorPoint& point, std::uint64_t index) {
     row.open[static_cast<std::size_t>(Open::sky)] = left(of_sky, all.above);
     row.open[static_cast<std::size_t>(Open::ground)] = left(1 - of_sky, all.factor - all.above);
     take_excess(row);
+    if (options_.bands)
+        row.bands = find_bands(row.open[static_cast<std::size_t>(Open::sky)].factor,
+                               hash_words({options_.seed, index, 1}));
     return row;
+}
+
+/// Divides the sky as the point's rays do that leave upwards.
+std::vector<OpenShare> PointView::find_bands(double sky, std::uint64_t seed) {
+    trace(seed);
+    std::vector<std::uint32_t> counts(options_.bands->size());
+    for (std::size_t k = 0; k < rays_.size(); ++k)
+        if (hits_[k].facet == none && rays_[k].direction[options_.up] > 0)
+            ++counts[options_.bands->of(rays_[k].direction)];
+    std::vector<OpenShare> shares = shares_of(counts, options_.rays);
+    scale_to_sum(shares, sky);
+    return shares;
 }
 
 } // namespace

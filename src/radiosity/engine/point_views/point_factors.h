@@ -9,7 +9,7 @@
 
 #include "bvh/wide/wide_bvh.h"
 #include "parallel/workers.h"
-#include "radiosity/engine/view_factors/row_rays.h"
+#include "radiosity/engine/view_factors/open_share.h"
 
 #include <array>
 #include <cstdint>
@@ -20,6 +20,7 @@
 namespace hemilux {
 
 class Mesh;
+class SkyBands;
 struct Monitor;
 
 /// A point in the local frame.
@@ -36,6 +37,7 @@ struct PointFactors {
     std::vector<double> factor;         ///< [-]
     std::vector<double> standard_error; ///< [-]; 0: it is exact
     std::array<OpenShare, opens> open;
+    std::vector<OpenShare> bands; ///< of the sky, if they are asked for: they sum to it
     /// A bound of the sum of factors that are not listed [-]: facets that are too small to count
     /// and that no ray hit. In 95 of 100 rows it holds.
     double unlisted_bound = 0;
@@ -48,7 +50,8 @@ struct PointFactorOptions {
     double error = .01, least = 1e-3; ///< relative error of factors above `least` [-]
     std::uint32_t rays = 1024;        ///< from a point, that look for small facets; a power of two
     std::uint64_t seed = 1;
-    int up = 2; ///< axis that points to the sky
+    int up = 2;                      ///< axis that points to the sky
+    const SkyBands* bands = nullptr; ///< parts of the sky, which rays find
     /// Is called as rows are found, from all threads, with the bytes of those found so far. What it
     /// throws ends the work.
     std::function<void(double bytes)> ask = {};

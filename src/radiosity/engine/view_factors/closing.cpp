@@ -32,7 +32,7 @@ class Rows {
             }
         for (std::size_t i = 0; i < list.area.size(); ++i)
             for (const OpenShare& open : list.open[i]) {
-                const double deviation = open.standard_error * list.area[i];
+                const double deviation = open.factor > 0 ? open.standard_error * list.area[i] : 0;
                 open_variance_.push_back(deviation * deviation);
             }
         find_lacking();
@@ -247,14 +247,22 @@ ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
     };
     for (std::size_t i = 0; i < list.area.size(); ++i) {
         const double own = first_diagonal[i];
-        for (std::size_t k = 0; k < opens; ++k) {
+        double unfound = 0;
+        const auto prior = [&](std::size_t k) {
             const double deviation = before.open[i][k].standard_error * list.area[i];
-            const double variance = deviation * deviation;
+            return deviation * deviation;
+        };
+        for (std::size_t k = 0; k < opens; ++k)
+            unfound += before.open[i][k].factor > 0 ? 0 : prior(k);
+        for (std::size_t k = 0; k < opens; ++k) {
+            // An opening that no ray found cannot be larger than the rest of the row is uncertain.
+            const double variance = prior(k);
+            const double all = own + (before.open[i][k].factor > 0 ? unfound : variance);
             // What is not listed went to where the row is least certain.
             if (variance > 0)
                 list.open[i][k].standard_error =
-                    elementary::hypot(remaining(variance, variance / own) / list.area[i],
-                                      variance / own * list.unlisted[i]);
+                    elementary::hypot(remaining(variance, variance / all) / list.area[i],
+                                      variance / all * list.unlisted[i]);
         }
         for (std::size_t k = 0; k < list.pairs[i].size(); ++k) {
             PairExchange& pair = list.pairs[i][k];

@@ -4,6 +4,8 @@
 #include "radiosity/engine/view_factors/line_samples.h"
 #include "radiosity/engine/view_factors/pair_hull.h"
 #include "radiosity/engine/view_factors/pair_rays.h"
+#include "radiosity/engine/view_factors/row_rays.h"
+#include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
@@ -355,12 +357,14 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
         list.area.push_back(patch.area);
     }
     list.open.resize(patches);
+    const std::size_t bands = options.bands ? options.bands->size() : 0;
+    list.bands.resize(patches * bands);
     list.pairs.resize(patches);
     PairsMemory memory(options.ask);
     std::vector<std::vector<std::uint32_t>> seen(patches);
     RowsDone looked(monitor, "finding pairs", patches);
     workers.for_chunks_with(
-        patches, 16, [&] { return RowRays(mesh, tree, options.seed, options.up); },
+        patches, 16, [&] { return RowRays(mesh, tree, options.seed, options.up, options.bands); },
         [&](RowRays& rays, std::size_t begin, std::size_t end) {
             RowView view;
             for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
@@ -368,6 +372,8 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
                 seen[i].assign(view.seen.begin(), view.seen.end());
                 memory.add_seen(view.seen.size());
                 list.open[i] = view.open;
+                std::ranges::copy(view.bands,
+                                  list.bands.begin() + static_cast<std::ptrdiff_t>(i * bands));
             }
             monitor.rays += (end - begin) * options.rays;
             looked.add(end - begin);

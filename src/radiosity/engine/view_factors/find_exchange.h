@@ -20,6 +20,7 @@
 namespace hemilux {
 
 class Mesh;
+class SkyBands;
 struct Monitor;
 
 /// This says which standard error a factor may have. `larger` is the larger of the two factors of a
@@ -35,7 +36,8 @@ struct ExchangeOptions {
     std::uint32_t rays = 1024; ///< from each patch; a power of two, 256 at least
     FactorTolerance tolerance = relative_above(.01, 1e-3);
     std::uint64_t seed = 1;
-    int up = 2; ///< axis that points to the sky
+    int up = 2;                      ///< axis that points to the sky
+    const SkyBands* bands = nullptr; ///< parts of the sky, if they are asked for
     /// Is called as rows are found, from all threads, with the bytes that the pairs found so far
     /// will take at the peak of summing and writing them. What it throws ends the work.
     std::function<void(double bytes)> ask = {};
