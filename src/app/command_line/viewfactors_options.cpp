@@ -2,6 +2,7 @@
 #include "app/command_line/option_kinds.h"
 #include "app/command_line/options.h"
 #include "app/settings/factor_aim.h"
+#include "geometry/numeric.h"
 
 #include <bit>
 
@@ -15,6 +16,7 @@ constexpr const char* viewfactors_examples = R"(Examples:
   hemilux viewfactors room.obj --error 0.5% --of above:0.01 -o factors.npz
   hemilux viewfactors city.stl -o vfsparse.inp.001 -o svf.inp.001
   hemilux viewfactors room.obj --by group --points seats.txt -o factors.csv --legend rows.csv
+  hemilux viewfactors city.stl --suns june.txt --sunlit june.csv
   hemilux viewfactors city.stl --of sky -o sky.vtu --legend sky.csv
 )";
 
@@ -23,6 +25,14 @@ std::optional<std::uint32_t> rays_from(const std::string& text) {
     return value && std::has_single_bit(*value) && *value >= 256 && *value <= (1u << 20)
                ? std::optional(static_cast<std::uint32_t>(*value))
                : std::nullopt;
+}
+
+std::optional<Vec3> direction_from(const std::string& text) {
+    const std::optional<std::vector<double>> numbers = parse_numbers(text, ',');
+    if (!numbers || numbers->size() != 3)
+        return {};
+    const Vec3 direction((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+    return direction == Vec3(0.0) ? std::nullopt : std::optional(direction_of(direction));
 }
 
 std::optional<SkyDivision> bands_from(const std::string& text) {
@@ -84,6 +94,12 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
                     [&settings](int axis) { settings.up = axis; });
     method.add_text("--points", "FILE", settings.points,
                     "points with normals that get rows of their own: rows x,y,z,nx,ny,nz");
+    add_parsed(method, "--sun", "X,Y,Z",
+               "the direction to the sun, not that of its light as for solve; for --sunlit",
+               "three numbers X,Y,Z that are not all 0", direction_from,
+               [&settings](const Vec3& direction) { settings.sun = direction; });
+    method.add_text("--suns", "FILE", settings.suns,
+                    "more directions to the sun, for --sunlit: rows x,y,z");
     add_random_options(method, settings.options);
     const Command output = command.under(output_group);
     add_parsed(
@@ -93,11 +109,14 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
         "a file name that ends with .csv, .npz, .npy or .vtu, or begins with vfsparse.inp or "
         "svf.inp",
         output_from, [&settings](const std::string& path) { settings.outputs.push_back(path); })
-        .repeatable()
-        .required();
+        .repeatable();
     add_path(output, "--legend", "FILE",
              "a table of the rows: name, face, group, area, centre, normal, sky, sum of the row",
              ".csv", [&settings](const std::string& path) { settings.legend = path; });
+    add_path(output, "--sunlit", "FILE",
+             "a table of the share of each surface that the sun shines on: sun, surface, sunlit, "
+             "standard_error",
+             ".csv", [&settings](const std::string& path) { settings.sunlit = path; });
     add_verbosity_options(command, settings.verbosity);
     command.end_help_with(viewfactors_examples);
     return command;

@@ -5,6 +5,7 @@
 #include "app/factors/factor_points.h"
 #include "app/factors/factor_run.h"
 #include "app/factors/factor_surfaces.h"
+#include "app/factors/sunlit_run.h"
 #include "app/gathering/point_table.h"
 #include "app/loading/load.h"
 #include "app/memory/memory.h"
@@ -128,14 +129,114 @@ void write(const std::string& path, const ViewFactorSettings& settings, const Me
     }
 }
 
+/// What a run computes; what it is computed of outlives it.
+struct Results {
+    bool has_factors = false;
+    ViewFactors factors;
+    std::vector<FactorPlace> places;
+    std::vector<FactorPoint> points;
+    std::vector<PointFactors> point_rows;
+};
+
+/// Returns whether anything but --sunlit is to be written.
+bool wants_factors(const ViewFactorSettings& settings) {
+    return !settings.outputs.empty() || !settings.legend.empty();
+}
+
+/// Computes what is to be written, and logs how exact it is.
+Results compute(const ViewFactorSettings& settings, const FactorScene& scene,
+                std::span<const NamedPoint> points, Monitor& monitor) {
+    const Stage stage("finding factors", settings.verbosity);
+    const Stopwatch watch;
+    Results results;
+    results.places = places_of(points);
+    results.points = factor_points(results.places, scene.mesh, scene.tree);
+    if (!wants_factors(settings))
+        return results;
+    results.factors = compute_factors(settings, scene, monitor);
+    if (monitor.interrupted)
+        return results;
+    results.has_factors = true;
+    log_audit(settings, scene.surfaces, results.factors, watch.seconds());
+    const Stopwatch at_points;
+    results.point_rows = compute_points(settings, scene, results.points, monitor);
+    log_points(settings, results.point_rows, at_points.seconds());
+    return results;
+}
+
+FactorTable table_of(const ViewFactorSettings& settings, const FactorScene& scene,
+                     const Results& results, const Monitor& monitor) {
+    FactorTable table{results.factors,
+                      scene.surfaces.rows,
+                      {},
+                      &monitor.interrupted.own().wished,
+                      settings.aim.of != FactorAim::Of::sky,
+                      results.point_rows,
+                      results.places,
+                      scene.bands};
+    if (settings.sky)
+        table.columns.push_back(Open::sky);
+    if (settings.ground)
+        table.columns.push_back(Open::ground);
+    return table;
+}
+
+/// The directions to the sun, that of --sun first.
+std::vector<Vec3> suns_of(const ViewFactorSettings& settings, const RunFiles& files) {
+    std::vector<Vec3> suns;
+    if (settings.sun)
+        suns.push_back(*settings.sun);
+    if (!settings.suns.empty()) {
+        files.read("file of --suns", settings.suns);
+        const std::vector<Vec3> more = read_directions(settings.suns);
+        suns.insert(suns.end(), more.begin(), more.end());
+    }
+    if (suns.empty() != settings.sunlit.empty())
+        throw UsageError(suns.empty() ? "--sunlit: name the sun by --sun or --suns"
+                                      : "--sun and --suns are for --sunlit FILE.csv");
+    return suns;
+}
+
+/// Returns the files of the run. Throws UsageError where there is nothing to write.
+RunFiles files_of(const ViewFactorSettings& settings) {
+    std::vector<std::string> outputs = settings.outputs;
+    for (const std::string& path : {settings.legend, settings.sunlit})
+        if (!path.empty())
+            outputs.push_back(path);
+    if (settings.outputs.empty() && settings.sunlit.empty())
+        throw UsageError("--output: name a file to write, or one of --sunlit");
+    return check_files(outputs, settings.scene.path);
+}
+
+/// Writes all files, and finds the sunlit fractions as they are written.
+WriteReport write_all(const ViewFactorSettings& settings, const FactorScene& scene,
+                      const Results& results, std::span<const Vec3> suns, Monitor& monitor) {
+    const FactorTable table = table_of(settings, scene, results, monitor);
+    WriteReport report;
+    if (results.has_factors) {
+        const Stage stage("writing", settings.verbosity);
+        for (const std::string& path : settings.outputs)
+            report.attempt(path, [&] { write(path, settings, scene.mesh, scene.surfaces, table); });
+        if (!settings.legend.empty())
+            report.attempt(settings.legend, [&] { write_factor_legend(settings.legend, table); });
+    }
+    if (!settings.sunlit.empty() && !monitor.interrupted)
+        report.attempt(settings.sunlit, [&] {
+            const Stage stage("finding sunlight", settings.verbosity);
+            const Stopwatch watch;
+            const SunlitRun run = write_sunlit(settings.sunlit, settings, scene, suns,
+                                               results.points, table.size(), monitor);
+            log_sunlit(settings, run, suns.size(), watch.seconds());
+        });
+    return report;
+}
+
 } // namespace
 
 int viewfactors(const ViewFactorSettings& settings) {
-    std::vector<std::string> outputs = settings.outputs;
-    if (!settings.legend.empty())
-        outputs.push_back(settings.legend);
-    const RunFiles files = check_files(outputs, settings.scene.path);
+    const RunFiles files = files_of(settings);
     const std::vector<NamedPoint> points = points_of(settings, files);
+    const std::vector<Vec3> suns = suns_of(settings, files);
     Monitor monitor;
     InterruptGuard guard;
     const LoadedSurfaces loaded = load_surfaces(settings, files);
@@ -144,10 +245,8 @@ int viewfactors(const ViewFactorSettings& settings) {
     check_distances(settings.points, points, loaded.mesh);
     check_dense(settings, surfaces.rows.size(), points.size(), bands);
     check_sky(settings);
-    const Stopwatch computing;
     const WideBvh tree(loaded.mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted.own().wished);
-    std::optional<Stage> stage(std::in_place, "finding factors", settings.verbosity);
     const FactorScene scene{
         loaded.mesh,
         tree,
@@ -155,36 +254,12 @@ int viewfactors(const ViewFactorSettings& settings) {
         loaded.up,
         memory_guard(loaded.need, settings.scene.memory, settings.scene.path, advice_for_memory),
         bands ? &*bands : nullptr};
-    const ViewFactors factors = compute_factors(settings, scene, monitor);
-    const double seconds = computing.seconds();
-    const std::vector<FactorPlace> places = places_of(points);
-    const std::vector<PointFactors> point_rows =
-        compute_points(settings, scene, factor_points(places, loaded.mesh, tree), monitor);
-    if (monitor.interrupted) {
+    const Results results = compute(settings, scene, points, monitor);
+    const WriteReport report = write_all(settings, scene, results, suns, monitor);
+    if (report.written.empty() && report.failed.empty() && monitor.interrupted) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();
     }
-    log_audit(settings, surfaces, factors, seconds);
-    log_points(settings, point_rows, computing.seconds() - seconds);
-    FactorTable table{factors,
-                      surfaces.rows,
-                      {},
-                      &monitor.interrupted.own().wished,
-                      settings.aim.of != FactorAim::Of::sky,
-                      point_rows,
-                      places,
-                      scene.bands};
-    if (settings.sky)
-        table.columns.push_back(Open::sky);
-    if (settings.ground)
-        table.columns.push_back(Open::ground);
-    stage.reset();
-    stage.emplace("writing", settings.verbosity);
-    WriteReport report;
-    for (const std::string& path : settings.outputs)
-        report.attempt(path, [&] { write(path, settings, loaded.mesh, surfaces, table); });
-    if (!settings.legend.empty())
-        report.attempt(settings.legend, [&] { write_factor_legend(settings.legend, table); });
     report.log(settings.verbosity);
     return report.exit_code(bool(monitor.interrupted));
 }

@@ -180,4 +180,14 @@ void log_points(const ViewFactorSettings& settings, std::span<const PointFactors
             duration(seconds) + left);
 }
 
+void log_sunlit(const ViewFactorSettings& settings, const SunlitRun& run, std::size_t suns,
+                double seconds) {
+    log_line(settings.verbosity, Verbosity::normal,
+             counted(run.suns, "sun", "suns") + ": " + grouped(run.exact) + " of " +
+                 counted(run.all, "sunlit fraction", "sunlit fractions") +
+                 " exact, the largest standard error " + formatted("%.2g, ", run.worst_error) +
+                 duration(seconds) +
+                 (run.suns < suns ? "; " + grouped(suns - run.suns) + " were not reached" : ""));
+}
+
 } // namespace hemilux

@@ -276,6 +276,42 @@ TEST_CASE("viewfactors --sky-bands divides the column of the sky") {
                           "a whole number from 1 to 90 or tregenza");
 }
 
+TEST_CASE("viewfactors --sunlit writes the sunlit share of surfaces and points for each sun") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    place.write("suns.txt", "x,y,z\n1,0,1 # from the east at 45 degrees\n0 0 -2\n");
+    place.write("points.txt", ".2,.5,0,0,0,1\n.9,.5,0,0,0,1\n");
+    const auto outcome = place.hemilux("viewfactors box.obj --by group --sun 0,0,3 --suns suns.txt "
+                                       "--points points.txt --sunlit s.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err,
+               Contains("3 suns: 6 of 6 sunlit fractions exact") && Contains("wrote s.csv"));
+    // Suns by surfaces 0 and 1 and points 2 and 3. The inside of the walls is 4, of which the west
+    // is in the sun at 45 degrees; the floor is in the shade of the east.
+    CHECK(place.read("s.csv") == "sun,surface,sunlit,standard_error\n"
+                                 "0,0,1,0\n0,1,0,0\n0,2,1,0\n0,3,1,0\n"
+                                 "1,0,0,0\n1,1,0.25,0\n1,2,0,0\n1,3,0,0\n"
+                                 "2,0,0,0\n2,1,0,0\n2,2,0,0\n2,3,0,0\n");
+    REQUIRE(place
+                .hemilux("viewfactors box.obj -q --by group --sky --sun 1,0,2 --points points.txt "
+                         "--sunlit t.csv -o f.csv --legend l.csv")
+                .code == 0);
+    // Half of the floor; points follow the sky in the legend.
+    CHECK_THAT(place.read("t.csv"), Contains("\n0,0,0.5,0\n") && Contains("\n0,3,1,0\n0,4,0,0\n"));
+    CHECK(rows_of(place.read("l.csv"))[4][0] == "3");
+    const auto fails = [&](int code, const std::string& arguments, const std::string& message) {
+        test::check_fails(place, code, "viewfactors box.obj " + arguments, message);
+    };
+    fails(1, "--sunlit s.csv", "name the sun by --sun or --suns");
+    fails(1, "--sun 0,0,1 -o a.csv", "are for --sunlit FILE.csv");
+    fails(1, "--sun 0,0,0 --sunlit a.csv", "three numbers X,Y,Z that are not all 0");
+    fails(1, "--sun 0,0,1 --sunlit a.txt", ".csv");
+    place.write("suns.txt", "1 0 1\n0 0 0\n");
+    fails(2, "--suns suns.txt --sunlit a.csv", "suns.txt:2: expected a direction x,y,z");
+    place.write("suns.txt", "1 0 1 0\n");
+    fails(2, "--suns suns.txt --sunlit a.csv", "suns.txt:1: expected three numbers x,y,z, then");
+}
+
 TEST_CASE("viewfactors says what is wrong with what it is asked") {
     const Workplace place;
     place.write("box.obj", open_box);
