@@ -65,6 +65,9 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
                "[face]");
     add_error(method, "--error", settings.error,
               "the standard error that is aimed at, relative [1%]");
+    add_seconds(method, "--time", settings.seconds, positive,
+                "end the search for better factors after this time, and report the error that was "
+                "reached; 2m and 1h are minutes and hours");
     add_parsed(
         method, "--of", "above:F|rows|largest|pair:A,B|sky",
         "what it is of: factors of at least F, their root mean square; the factors of each "

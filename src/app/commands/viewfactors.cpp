@@ -19,6 +19,7 @@
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
 #include "bvh/wide/wide_bvh.h"
+#include "io/files/error.h"
 #include "io/meshes/factor_cells.h"
 #include "io/results/view_factor_files.h"
 #include "io/results/view_factor_legend.h"
@@ -154,9 +155,9 @@ Results compute(const ViewFactorSettings& settings, const FactorScene& scene,
     if (!wants_factors(settings))
         return results;
     results.factors = compute_factors(settings, scene, monitor);
-    if (monitor.interrupted)
+    results.has_factors = results.factors.rows() > 0;
+    if (!results.has_factors)
         return results;
-    results.has_factors = true;
     log_audit(settings, scene.surfaces, results.factors, watch.seconds());
     const Stopwatch at_points;
     results.point_rows = compute_points(settings, scene, results.points, monitor);
@@ -169,7 +170,7 @@ FactorTable table_of(const ViewFactorSettings& settings, const FactorScene& scen
     FactorTable table{results.factors,
                       scene.surfaces.rows,
                       {},
-                      &monitor.interrupted.own().wished,
+                      monitor.interrupted ? nullptr : &monitor.interrupted.own().wished,
                       settings.aim.of != FactorAim::Of::sky,
                       results.point_rows,
                       results.places,
@@ -220,8 +221,10 @@ WriteReport write_all(const ViewFactorSettings& settings, const FactorScene& sce
         if (!settings.legend.empty())
             report.attempt(settings.legend, [&] { write_factor_legend(settings.legend, table); });
     }
-    if (!settings.sunlit.empty() && !monitor.interrupted)
+    if (!settings.sunlit.empty())
         report.attempt(settings.sunlit, [&] {
+            if (monitor.interrupted)
+                throw Interrupted();
             const Stage stage("finding sunlight", settings.verbosity);
             const Stopwatch watch;
             const SunlitRun run = write_sunlit(settings.sunlit, settings, scene, suns,
@@ -256,11 +259,12 @@ int viewfactors(const ViewFactorSettings& settings) {
         bands ? &*bands : nullptr};
     const Results results = compute(settings, scene, points, monitor);
     const WriteReport report = write_all(settings, scene, results, suns, monitor);
-    if (report.written.empty() && report.failed.empty() && monitor.interrupted) {
+    if (!results.has_factors && wants_factors(settings) && report.failed.empty()) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();
     }
     report.log(settings.verbosity);
+    report.log_interruption(settings.verbosity, bool(monitor.interrupted));
     return report.exit_code(bool(monitor.interrupted));
 }
 

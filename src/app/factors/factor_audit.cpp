@@ -65,14 +65,17 @@ void log_error(const ViewFactorSettings& settings, const FactorSurfaces& surface
     }
     }
     log_line(settings.verbosity, Verbosity::normal, "standard errors: " + text);
-    if (reached > settings.error)
-        log_line(settings.verbosity, Verbosity::normal,
-                 "warning: the error is " + percent(reached) + ", where " +
-                     percent(settings.error) +
-                     " was asked for; most of it is where little is seen past many edges" +
-                     (settings.aim.of == FactorAim::Of::sky
-                          ? ""
-                          : ", and smaller faces (--max-edge) have a smaller one"));
+    if (reached <= settings.error)
+        return;
+    const bool is_cut_short = factors.work.rows_left > 0;
+    log_line(settings.verbosity, Verbosity::normal,
+             "warning: the error is " + percent(reached) + ", where " + percent(settings.error) +
+                 " was asked for; " +
+                 (is_cut_short ? "the run was ended before"
+                               : "most of it is where little is seen past many edges") +
+                 (settings.aim.of == FactorAim::Of::sky || is_cut_short
+                      ? ""
+                      : ", and smaller faces (--max-edge) have a smaller one"));
 }
 
 /// Names a few rows whose views are lost on backs: most likely they are turned.
@@ -118,6 +121,9 @@ void log_audit(const ViewFactorSettings& settings, const FactorSurfaces& surface
         log_line(settings.verbosity, Verbosity::normal, text);
     };
     const ExchangeWork& work = factors.work;
+    if (work.rows_left > 0)
+        line("the run was ended: " + counted(work.rows_left, "patch has", "patches have") +
+             " fewer rays than the error asks for");
     const std::string of_what = counted(factors.rows(), "surface", "surfaces") + " of " +
                                 counted(surfaces.row_of.size(), "patch", "patches") + "; ";
     if (settings.aim.of == FactorAim::Of::sky) {

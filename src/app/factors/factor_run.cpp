@@ -2,6 +2,7 @@
 
 #include "app/factors/factor_audit.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/solving/time_limit.h"
 #include "radiosity/engine/view_factors/row_rays.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
@@ -46,11 +47,18 @@ FactorTolerance tolerance_of(const ViewFactorSettings& settings, const FactorSur
     };
 }
 
+/// With a limit of time, coarse passes come first: these take a fraction of the time of the last,
+/// and what the limit leaves of one is as exact as the one before.
+std::vector<double> passes_before(const ViewFactorSettings& settings) {
+    return settings.seconds ? std::vector<double>{16, 4} : std::vector<double>{};
+}
+
 } // namespace
 
 ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScene& scene,
                             Monitor& monitor) {
     const Workers workers(settings.options.threads);
+    const TimeLimit limit(monitor.interrupted, settings.seconds);
     constexpr double first_guess = .01, smallest = 1e-4;
     const auto with_largest = [&](double largest) {
         const ExchangeOptions options{.rays = settings.rays,
@@ -58,6 +66,7 @@ ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScen
                                       .seed = settings.options.seed,
                                       .up = scene.up,
                                       .bands = scene.bands,
+                                      .before = passes_before(settings),
                                       .ask = scene.ask};
         return view_factors(scene.mesh, scene.tree, scene.surfaces.row_of,
                             scene.surfaces.rows.size(), options, workers, monitor);
@@ -73,8 +82,11 @@ ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScen
         list.unlisted_bound.resize(list.area.size());
         list.open = views.open;
         list.bands = views.bands;
+        if (views.is_void)
+            return {};
         ViewFactors factors =
             sum_over_rows(list, scene.surfaces.row_of, scene.surfaces.rows.size());
+        factors.work.rows_left = views.rows_left;
         factors.work.rays = views.rays;
         return factors;
     }
@@ -84,8 +96,12 @@ ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScen
     const LargestFactors found = largest_factors(factors);
     if (found.worst_error <= settings.error || found.smallest >= first_guess)
         return factors;
-    factors = {}; // before there are others
-    return with_largest(std::max(found.smallest, smallest));
+    if (!settings.seconds)
+        factors = {}; // before there are others
+    ViewFactors better = with_largest(std::max(found.smallest, smallest));
+    if (better.work.rows_left > 0 && factors.rows() > 0)
+        return factors;
+    return better;
 }
 
 std::vector<PointFactors> compute_points(const ViewFactorSettings& settings,

@@ -22,9 +22,10 @@ struct FactorScene {
     const SkyBands* bands = nullptr;            ///< parts of the sky, if they are asked for
 };
 
-/// Computes the factors by `error`, `aim`, `rays`, seed and threads of the settings. With `largest`
-/// it does so again where the largest factor of a row is smaller than was thought. The result is
-/// void if the monitor was interrupted. Throws UsageError for a pair of which one has no surface.
+/// Computes the factors by `error`, `aim`, `rays`, seed, threads and time of the settings. With
+/// `largest` it does so again where the largest factor of a row is smaller than was thought. After
+/// an interrupt, factors are as exact as they are then; there are no rows if it came before any was
+/// known. Throws UsageError for a pair of which one has no surface.
 [[nodiscard]] ViewFactors compute_factors(const ViewFactorSettings& settings,
                                           const FactorScene& scene, Monitor& monitor);
 

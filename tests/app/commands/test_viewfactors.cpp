@@ -1,12 +1,15 @@
 // What `hemilux viewfactors` writes and says.
 #include "app/check_fails.h"
+#include "app/running.h"
 #include "support/catch.h"
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <thread>
 #include <vector>
 
 using Catch::Contains;
@@ -72,6 +75,31 @@ f 3 10 11 5
 f 5 11 4
 f 4 11 8 1
 )";
+
+/// n x n blocks of different heights, each on a square of ground of its own: 6 n^2 faces.
+std::string city(int n) {
+    std::ostringstream text;
+    int corners = 0;
+    const auto quad = [&](const std::array<std::array<double, 3>, 4>& corner) {
+        for (const auto& [x, y, z] : corner)
+            text << "v " << x << ' ' << y << ' ' << z << '\n';
+        text << "f " << corners + 1 << ' ' << corners + 2 << ' ' << corners + 3 << ' '
+             << corners + 4 << '\n';
+        corners += 4;
+    };
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < n; ++k) {
+            const double x = 20. * i, y = 20. * k, a = x + 4, b = x + 16, c = y + 4, d = y + 14,
+                         h = 5 + (7 * i + 5 * k) % 16;
+            quad({{{x, y, 0}, {x + 20, y, 0}, {x + 20, y + 20, 0}, {x, y + 20, 0}}});
+            quad({{{a, c, h}, {b, c, h}, {b, d, h}, {a, d, h}}});
+            quad({{{a, c, 0}, {b, c, 0}, {b, c, h}, {a, c, h}}});
+            quad({{{b, c, 0}, {b, d, 0}, {b, d, h}, {b, c, h}}});
+            quad({{{b, d, 0}, {a, d, 0}, {a, d, h}, {b, d, h}}});
+            quad({{{a, d, 0}, {a, c, 0}, {a, c, h}, {a, d, h}}});
+        }
+    return text.str();
+}
 
 } // namespace
 
@@ -310,6 +338,52 @@ TEST_CASE("viewfactors --sunlit writes the sunlit share of surfaces and points f
     fails(2, "--suns suns.txt --sunlit a.csv", "suns.txt:2: expected a direction x,y,z");
     place.write("suns.txt", "1 0 1 0\n");
     fails(2, "--suns suns.txt --sunlit a.csv", "suns.txt:1: expected three numbers x,y,z, then");
+}
+
+TEST_CASE("viewfactors --time writes what is known when the time is over, with its error") {
+    const Workplace place;
+    place.write("city.obj", city(6));
+    const auto outcome =
+        place.hemilux("viewfactors city.obj --error .1% --time .01 --sky -o f.csv --legend l.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("the run was ended: ") &&
+                                Contains("where 0.1 % was asked for; the run was ended before"));
+    const auto legend = rows_of(place.read("l.csv"));
+    for (std::size_t row = 1; row <= 216; ++row)
+        CHECK(std::stod(legend[row][19]) == Approx(1).margin(1e-9));
+    REQUIRE(place.hemilux("viewfactors city.obj -q --error 10% --time 1h -o a.csv").code == 0);
+    REQUIRE(place
+                .hemilux("viewfactors city.obj -q --error .1% --of sky --time .01 -o s.vtu "
+                         "--sun 1,1,1 --sunlit s.csv")
+                .code == 0);
+    CHECK(rows_of(place.read("s.csv")).size() == 1 + 216); // all of it
+    test::check_fails(place, 1, "viewfactors city.obj --time 0 -o b.csv", "--time");
+}
+
+TEST_CASE("viewfactors writes what is known after Ctrl-C") {
+    const Workplace place;
+    place.write("city.obj", city(18));
+    std::string said;
+    for (double seconds = 1; seconds <= 64; seconds *= 2) { // the first rays take that long
+        test::Running run(place,
+                          "viewfactors city.obj --error .01% -o f.csv --legend l.csv --sun 0,0,1 "
+                          "--sunlit s.csv",
+                          place.path("stderr.txt").c_str());
+        std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+        run.interrupt();
+        CHECK(run.wait() == 130);
+        said = place.read("stderr.txt");
+        if (said.find("nothing was written") == std::string::npos && !said.empty())
+            break;
+    }
+    for (const char* text : {"the run was ended: ", "wrote f.csv", "wrote l.csv", "left out s.csv"})
+        CHECK_THAT(said, Contains(text));
+    const auto factors = factors_of(place.read("f.csv"));
+    const auto legend = rows_of(place.read("l.csv"));
+    REQUIRE(legend.size() == 1 + 18 * 18 * 6);
+    for (std::size_t row = 1; row < legend.size(); row += 100)
+        CHECK(std::stod(legend[row][19]) == Approx(1).margin(1e-9));
+    CHECK_FALSE(place.has("s.csv"));
 }
 
 TEST_CASE("viewfactors says what is wrong with what it is asked") {

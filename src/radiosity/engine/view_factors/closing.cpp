@@ -240,6 +240,12 @@ ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
         last = negative == 0 ? worst : 1;
     }
     audit.left_worst = rows.worst_lacking();
+    // The rest of a row says of one pair in it what is left of the row's sum, with the variance of
+    // the rest. What is not listed is a part of that.
+    const auto rest_of = [&](std::size_t i, double variance) {
+        const double unlisted = list.unlisted[i] * list.area[i];
+        return std::max(first_diagonal[i] - variance, 0.0) + unlisted * unlisted;
+    };
     // The variance after a change that makes use of a row's sum is smaller by about the part that
     // the row's own uncertainty has in it.
     const auto remaining = [](double variance, double parts) {
@@ -274,8 +280,8 @@ ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
             }
             const double variance = double(pair.deviation) * double(pair.deviation);
             audit.largest_move = std::max(audit.largest_move, moved / double(pair.deviation));
-            pair.deviation = static_cast<float>(
-                remaining(variance, variance / own + variance / first_diagonal[pair.to]));
+            pair.deviation = static_cast<float>(std::sqrt(
+                1 / (1 / variance + 1 / rest_of(i, variance) + 1 / rest_of(pair.to, variance))));
         }
     }
     return audit;

@@ -41,7 +41,7 @@ void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
     const auto start = PatchStart::in_any_axes(mesh_, patch);
     const std::uint32_t of_batch = rays / batches;
     std::array<std::array<double, batches>, opens> counts{};
-    view.seen.clear();
+    hit_.clear();
     band_counts_.assign(bands_ ? bands_->size() : 0, 0);
     for (std::uint32_t batch = 0; batch < batches; ++batch) {
         SobolBlocks<4> points(hash_words({seed_, patch, batch}));
@@ -62,11 +62,16 @@ void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
             } else if (receivers_[k] == absorbed)
                 count(Open::back);
             else if (receivers_[k] != patch)
-                view.seen.push_back(receivers_[k]);
+                hit_.push_back(receivers_[k]);
         }
     }
-    std::ranges::sort(view.seen);
-    view.seen.erase(std::unique(view.seen.begin(), view.seen.end()), view.seen.end());
+    std::ranges::sort(hit_);
+    view.seen.clear();
+    for (const std::uint32_t hit : hit_)
+        if (view.seen.empty() || view.seen.back().patch != hit)
+            view.seen.push_back({hit, 1});
+        else
+            ++view.seen.back().rays;
     for (std::size_t open = 0; open < opens; ++open) {
         double sum = 0, squares = 0;
         for (const double count : counts[open])
@@ -105,29 +110,43 @@ OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, double error, 
     views.open.resize(patches);
     const std::size_t of_row = bands ? bands->size() : 0;
     views.bands.resize(patches * of_row);
-    std::atomic<std::uint64_t> traced{0};
-    workers.for_chunks_with(
-        patches, 16, [&] { return RowRays(mesh, tracer, seed, up, bands); },
-        [&](RowRays& row, std::size_t begin, std::size_t end) {
-            RowView view;
-            for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
-                for (std::uint32_t rays = first_rays;;) {
-                    row.trace(static_cast<std::uint32_t>(i), rays, view);
-                    traced += rays;
-                    const double too_large = std::max(excess(view.open[0]), excess(view.open[1]));
-                    if (too_large <= 1 || rays == most_rays)
-                        break;
-                    // The error falls about as the power -0.6 of the rays.
-                    const double wanted = rays * elementary::pow(too_large, 1 / .6);
-                    while (rays < wanted && rays < most_rays)
-                        rays *= 2;
-                }
-                views.open[i] = view.open;
-                std::ranges::copy(view.bands,
-                                  views.bands.begin() + static_cast<std::ptrdiff_t>(i * of_row));
+    std::atomic<std::uint64_t> traced{0}, left{0};
+    const auto for_rows = [&](const auto& use) {
+        workers.for_chunks_with(
+            patches, 16, [&] { return RowRays(mesh, tracer, seed, up, bands); },
+            [&](RowRays& row, std::size_t begin, std::size_t end) {
+                RowView view;
+                for (std::size_t i = begin; i < end && !monitor.interrupted.is_wished(); ++i)
+                    use(row, view, i);
+            });
+    };
+    const auto trace = [&](RowRays& row, RowView& view, std::size_t i, std::uint32_t rays) {
+        row.trace(static_cast<std::uint32_t>(i), rays, view);
+        traced += rays;
+        views.open[i] = view.open;
+        std::ranges::copy(view.bands,
+                          views.bands.begin() + static_cast<std::ptrdiff_t>(i * of_row));
+    };
+    for_rows([&](RowRays& row, RowView& view, std::size_t i) { trace(row, view, i, first_rays); });
+    views.is_void = monitor.interrupted.is_wished();
+    for_rows([&](RowRays& row, RowView& view, std::size_t i) {
+        for (std::uint32_t rays = first_rays; rays < most_rays;) {
+            const double too_large = std::max(excess(views.open[i][0]), excess(views.open[i][1]));
+            if (too_large <= 1)
+                return;
+            if (monitor.interrupted) {
+                ++left;
+                return;
             }
-        });
+            // The error falls about as the power -0.6 of the rays.
+            const double wanted = rays * elementary::pow(too_large, 1 / .6);
+            while (rays < wanted && rays < most_rays)
+                rays *= 2;
+            trace(row, view, i, rays);
+        }
+    });
     views.rays = traced;
+    views.rows_left = left;
     monitor.rays += views.rays;
     return views;
 }

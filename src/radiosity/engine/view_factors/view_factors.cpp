@@ -115,7 +115,7 @@ ViewFactors view_factors(const Mesh& mesh, const WideBvh& tree,
                          std::span<const std::uint32_t> row_of, std::size_t rows,
                          const ExchangeOptions& options, const Workers& workers, Monitor& monitor) {
     FoundExchange found = find_exchange(mesh, tree, options, workers, monitor);
-    if (monitor.interrupted)
+    if (found.is_void)
         return {};
     const ClosingAudit audit = close_rows(found.list, options.rays);
     ViewFactors factors = sum_over_rows(found.list, row_of, rows);

@@ -45,7 +45,7 @@ struct ViewFactors {
 };
 
 /// Computes the factors between `rows` surfaces; row_of[patch] says to which a patch belongs. The
-/// result is void if the monitor was interrupted.
+/// result has no rows where find_exchange() returns a void one.
 [[nodiscard]] ViewFactors view_factors(const Mesh& mesh, const WideBvh& tree,
                                        std::span<const std::uint32_t> row_of, std::size_t rows,
                                        const ExchangeOptions& options, const Workers& workers,
