@@ -1,7 +1,8 @@
 #include "app/factors/sunlit_run.h"
 
 #include "geometry/elementary.h"
-#include "io/results/sunlit_table.h"
+#include "io/files/atomic_file.h"
+#include "io/results/csv.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/point_views/sunlit.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -32,6 +33,19 @@ std::vector<OpenShare> means_of(const FactorScene& scene, std::span<const OpenSh
     return means;
 }
 
+/// Writes a row for each fraction; surfaces have consecutive numbers, from `first` on.
+void write_rows(AtomicFile& file, std::size_t sun, std::size_t first,
+                std::span<const OpenShare> fractions) {
+    std::string line;
+    for (std::size_t k = 0; k < fractions.size(); ++k) {
+        line = std::to_string(sun) + "," + std::to_string(first + k) + ",";
+        csv::append_number(line, fractions[k].factor);
+        line += ',';
+        csv::append_number(line, fractions[k].standard_error);
+        file.write(line + "\n");
+    }
+}
+
 } // namespace
 
 SunlitRun write_sunlit(const std::string& path, const ViewFactorSettings& settings,
@@ -39,7 +53,8 @@ SunlitRun write_sunlit(const std::string& path, const ViewFactorSettings& settin
                        std::span<const FactorPoint> points, std::size_t first_point,
                        Monitor& monitor) {
     const Workers workers(settings.options.threads);
-    SunlitTable table(path);
+    AtomicFile file(path);
+    file.write("sun,surface,sunlit,standard_error\n");
     SunlitRun run;
     monitor.phase = "sunlight";
     for (std::size_t s = 0; s < suns.size(); ++s) {
@@ -54,8 +69,8 @@ SunlitRun write_sunlit(const std::string& path, const ViewFactorSettings& settin
         std::vector<OpenShare> of_points;
         for (const FactorPoint& point : points)
             of_points.push_back({is_sunlit(point, suns[s], scene.tree) ? 1.0 : 0.0, 0});
-        table.add(s, 0, means);
-        table.add(s, first_point, of_points);
+        write_rows(file, s, 0, means);
+        write_rows(file, s, first_point, of_points);
         ++run.suns;
         for (const OpenShare& mean : means) {
             ++run.all;
@@ -63,7 +78,7 @@ SunlitRun write_sunlit(const std::string& path, const ViewFactorSettings& settin
             run.worst_error = std::max(run.worst_error, mean.standard_error);
         }
     }
-    table.commit();
+    file.commit();
     return run;
 }
 

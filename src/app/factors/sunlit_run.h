@@ -16,7 +16,8 @@ struct SunlitRun {
     double worst_error = 0;         ///< largest standard error [-]
 };
 
-/// Finds the fractions of all surfaces and points for each sun and writes them to the table. Points
+/// Finds the fractions of all surfaces and points for each sun and writes a table
+/// `sun,surface,sunlit,standard_error`, a row for each of them. Points
 /// count from `first_point`. An interrupt ends it after the suns that are complete, which are
 /// written. Throws OutputError.
 [[nodiscard]] SunlitRun write_sunlit(const std::string& path, const ViewFactorSettings& settings,

@@ -406,7 +406,8 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
         const std::vector<std::uint8_t> is_done = measure(scale);
         for (std::size_t i = 0; i < patches; ++i)
             is_known[i] |= is_done[i];
-        return static_cast<std::uint64_t>(std::ranges::count(is_done, std::uint8_t{0}));
+        return static_cast<std::uint64_t>(
+            std::count(is_done.begin(), is_done.end(), std::uint8_t{0}));
     };
     found.work.rows_left = patches;
     for (const double scale : options.before)
