@@ -197,6 +197,9 @@ class ViewFactors:
     def load(path: _Path) -> "ViewFactors":
         """Read what `save` or ``hemilux viewfactors -o factors.npz`` wrote.
 
+        Bands of the sky are summed to ``sky``, and rows of points are left out;
+        ``scipy.sparse.load_npz`` reads these.
+
         Parameters
         ----------
         path : str or path
@@ -209,7 +212,8 @@ class ViewFactors:
             size = len(file["area"])
             name = [text.decode("utf-8") for text in file["name"].tolist()]
             shape = tuple(file["shape"].tolist())
-            columns = tuple(name[size:shape[1]])
+            place = {key: size + k for k, key in enumerate(name[size:shape[1]])}
+            columns = tuple(key for key in place if key in OPEN)
             matrix, errors = (scipy.sparse.csr_matrix((file[data], file["indices"], file["indptr"]),
                                                       shape) for data in ("data", "standard_error"))
             shares: dict[str, Optional[np.ndarray]] = {}
@@ -217,8 +221,10 @@ class ViewFactors:
                 for end, source in (("", matrix), ("_standard_error", errors)):
                     shares[key + end] = file[key + end] if key + end in file else None
                     if shares[key + end] is None and key in columns:
-                        column = source[:size, size + columns.index(key)]
-                        shares[key + end] = column.toarray().reshape(-1)
+                        shares[key + end] = source[:size, place[key]].toarray().reshape(-1)
+            bands = [k for key, k in place.items() if key not in OPEN]
+            if bands:
+                shares["sky"] = np.asarray(matrix[:size, bands].sum(axis=1)).reshape(-1)
             bound = file["unlisted_bound"] if "unlisted_bound" in file else None
             audit = {key.removeprefix("audit_"): file[key].item()
                      for key in file.files if key.startswith("audit_")}

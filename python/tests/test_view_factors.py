@@ -155,6 +155,21 @@ def test_the_program_finds_the_same_bytes(tmp_path):
     assert of_program.ground is None
 
 
+@pytest.mark.skipif(not PROGRAM, reason="the program is not named by HEMILUX_PROGRAM")
+def test_bands_and_points_of_the_program_are_read_as_sky_and_surfaces(tmp_path):
+    (tmp_path / "floor.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+    (tmp_path / "points.txt").write_text("0.5 0.5 1 0 0 -1\n0.5 0.5 1 1 0 0\n")
+    subprocess.run([PROGRAM, "viewfactors", tmp_path / "floor.obj", "-q", "--sky-bands", "3",
+                    "--ground", "--points", tmp_path / "points.txt", "-o", tmp_path / "f.npz"],
+                   check=True)
+    whole = scipy.sparse.load_npz(tmp_path / "f.npz")
+    assert whole.shape == (1 + 3 + 1 + 2, 1 + 3 + 1)
+    assert np.asarray(whole.sum(axis=1)).ravel() == pytest.approx([1, 0, 0, 0, 0, 1, 1])
+    found = hemilux.ViewFactors.load(tmp_path / "f.npz")
+    assert found.sky.tolist() == pytest.approx([1]) and found.sky_standard_error is None
+    assert found.matrix.shape == (2, 2) and found.ground.tolist() == [0]
+
+
 def test_an_error_that_is_not_reached_is_reported():
     with pytest.warns(UserWarning, match="the error is .*, where 0.0001 was asked for") as warned:
         hemilux.view_factors(boxes(3), 1e-4)

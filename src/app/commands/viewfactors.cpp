@@ -210,8 +210,8 @@ RunFiles files_of(const ViewFactorSettings& settings) {
 }
 
 /// Writes all files, and finds the sunlit fractions as they are written.
-WriteReport write_all(const ViewFactorSettings& settings, const FactorScene& scene,
-                      const Results& results, std::span<const Vec3> suns, Monitor& monitor) {
+WriteReport write_results(const ViewFactorSettings& settings, const FactorScene& scene,
+                          const Results& results, std::span<const Vec3> suns, Monitor& monitor) {
     const FactorTable table = table_of(settings, scene, results, monitor);
     WriteReport report;
     if (results.has_factors) {
@@ -258,7 +258,7 @@ int viewfactors(const ViewFactorSettings& settings) {
         memory_guard(loaded.need, settings.scene.memory, settings.scene.path, advice_for_memory),
         bands ? &*bands : nullptr};
     const Results results = compute(settings, scene, points, monitor);
-    const WriteReport report = write_all(settings, scene, results, suns, monitor);
+    const WriteReport report = write_results(settings, scene, results, suns, monitor);
     if (!results.has_factors && wants_factors(settings) && report.failed.empty()) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();
