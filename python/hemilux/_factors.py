@@ -238,6 +238,8 @@ def _or_zeros(values: Optional[np.ndarray], size: int) -> np.ndarray:
 
 def _on_entries_of(pattern: scipy.sparse.csr_matrix, values: Any) -> scipy.sparse.csr_matrix:
     """Return the values at the entries of the pattern, zeros among them."""
+    if pattern.nnz == 0:
+        return pattern.copy()
     rows = np.repeat(np.arange(pattern.shape[0]), np.diff(pattern.indptr))
     data = np.asarray(values.tocsr()[rows, pattern.indices]).reshape(-1)
     return scipy.sparse.csr_matrix((data, pattern.indices, pattern.indptr), pattern.shape)
