@@ -47,10 +47,10 @@ FactorTolerance tolerance_of(const ViewFactorSettings& settings, const FactorSur
     };
 }
 
-/// With a limit of time, coarse passes come first: these take a fraction of the time of the last,
-/// and what the limit leaves of one is as exact as the one before.
+/// With a limit of time, a coarse pass comes first: it takes a fraction of the time of the last,
+/// and what the limit leaves of the last is as exact as it.
 std::vector<double> passes_before(const ViewFactorSettings& settings) {
-    return settings.seconds ? std::vector<double>{16, 4} : std::vector<double>{};
+    return settings.seconds ? std::vector<double>{4} : std::vector<double>{};
 }
 
 } // namespace
