@@ -131,7 +131,7 @@ void write(const std::string& path, const ViewFactorSettings& settings, const Me
 }
 
 /// What a run computes; what it is computed of outlives it.
-struct Results {
+struct FoundFactors {
     bool has_factors = false;
     ViewFactors factors;
     std::vector<FactorPlace> places;
@@ -145,11 +145,11 @@ bool wants_factors(const ViewFactorSettings& settings) {
 }
 
 /// Computes what is to be written, and logs how exact it is.
-Results compute(const ViewFactorSettings& settings, const FactorScene& scene,
-                std::span<const NamedPoint> points, Monitor& monitor) {
+FoundFactors compute(const ViewFactorSettings& settings, const FactorScene& scene,
+                     std::span<const NamedPoint> points, Monitor& monitor) {
     const Stage stage("finding factors", settings.verbosity);
     const Stopwatch watch;
-    Results results;
+    FoundFactors results;
     results.places = places_of(points);
     results.points = factor_points(results.places, scene.mesh, scene.tree);
     if (!wants_factors(settings))
@@ -166,7 +166,7 @@ Results compute(const ViewFactorSettings& settings, const FactorScene& scene,
 }
 
 FactorTable table_of(const ViewFactorSettings& settings, const FactorScene& scene,
-                     const Results& results, const Monitor& monitor) {
+                     const FoundFactors& results, const Monitor& monitor) {
     FactorTable table{results.factors,
                       scene.surfaces.rows,
                       {},
@@ -210,8 +210,8 @@ RunFiles files_of(const ViewFactorSettings& settings) {
 }
 
 /// Writes all files, and finds the sunlit fractions as they are written.
-WriteReport write_results(const ViewFactorSettings& settings, const FactorScene& scene,
-                          const Results& results, std::span<const Vec3> suns, Monitor& monitor) {
+WriteReport write_found(const ViewFactorSettings& settings, const FactorScene& scene,
+                        const FoundFactors& results, std::span<const Vec3> suns, Monitor& monitor) {
     const FactorTable table = table_of(settings, scene, results, monitor);
     WriteReport report;
     if (results.has_factors) {
@@ -257,8 +257,8 @@ int viewfactors(const ViewFactorSettings& settings) {
         loaded.up,
         memory_guard(loaded.need, settings.scene.memory, settings.scene.path, advice_for_memory),
         bands ? &*bands : nullptr};
-    const Results results = compute(settings, scene, points, monitor);
-    const WriteReport report = write_results(settings, scene, results, suns, monitor);
+    const FoundFactors results = compute(settings, scene, points, monitor);
+    const WriteReport report = write_found(settings, scene, results, suns, monitor);
     if (!results.has_factors && wants_factors(settings) && report.failed.empty()) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();

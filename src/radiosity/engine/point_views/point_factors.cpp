@@ -19,8 +19,8 @@ namespace {
 /// Facets whose factor is below this share of the smallest tolerance are left to rays.
 constexpr double smallest_searched = .1;
 
-std::vector<Target> targets_of(const Mesh& mesh, std::span<const std::uint32_t> row_of) {
-    std::vector<Target> targets;
+std::vector<PointTarget> targets_of(const Mesh& mesh, std::span<const std::uint32_t> row_of) {
+    std::vector<PointTarget> targets;
     for (std::size_t i = 0; i < mesh.patches().size(); ++i)
         targets.push_back(
             {face_plane(mesh.patches()[i].shape), mesh.patches()[i].facet, row_of[i]});
@@ -33,7 +33,7 @@ std::vector<Target> targets_of(const Mesh& mesh, std::span<const std::uint32_t> 
 /// Finds the rows of points, with its memory; one for each thread.
 class PointView {
   public:
-    PointView(const Mesh& mesh, const WideBvh& tree, std::span<const Target> targets,
+    PointView(const Mesh& mesh, const WideBvh& tree, std::span<const PointTarget> targets,
               const PointFactorOptions& options)
         : tree_(tree), targets_(targets), options_(options), view_(mesh, tree, options),
           is_hit_(mesh.scene().facets.size()) {}
@@ -46,7 +46,7 @@ class PointView {
     [[nodiscard]] std::vector<OpenShare> find_bands(double sky, std::uint64_t seed);
 
     const WideBvh& tree_;
-    std::span<const Target> targets_;
+    std::span<const PointTarget> targets_;
     const PointFactorOptions& options_;
 
     TargetView view_;
@@ -128,13 +128,13 @@ PointFactors PointView::row_of(const FactorPoint& point, std::uint64_t index) {
     point_ = point;
     view_.move_to(point);
     find_candidates(hash_words({options_.seed, index, 1}));
-    std::map<std::uint32_t, Seen> by_column;
-    Seen all;
+    std::map<std::uint32_t, SeenFactor> by_column;
+    SeenFactor all;
     for (const std::uint32_t t : candidates_) {
-        const Seen seen = view_.see(targets_[t], hash_words({options_.seed, index, 2, t}));
+        const SeenFactor seen = view_.see(targets_[t], hash_words({options_.seed, index, 2, t}));
         if (!(seen.factor > 0 || seen.variance > 0))
             continue;
-        for (Seen* sum : {&by_column[targets_[t].column], &all}) {
+        for (SeenFactor* sum : {&by_column[targets_[t].column], &all}) {
             sum->factor += seen.factor;
             sum->variance += seen.variance;
             sum->above += seen.above;
@@ -197,7 +197,7 @@ std::vector<PointFactors> point_factors(std::span<const FactorPoint> points, con
                                         const WideBvh& tree, std::span<const std::uint32_t> row_of,
                                         const PointFactorOptions& options, const Workers& workers,
                                         Monitor& monitor) {
-    const std::vector<Target> targets = targets_of(mesh, row_of);
+    const std::vector<PointTarget> targets = targets_of(mesh, row_of);
     std::vector<PointFactors> rows(points.size());
     monitor.step_share = 0;
     monitor.phase = "points";

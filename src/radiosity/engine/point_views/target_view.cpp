@@ -28,7 +28,7 @@ double factor_of(const ConvexPart& piece) {
 
 } // namespace
 
-double rough_factor(const FactorPoint& point, const Target& target) {
+double rough_factor(const FactorPoint& point, const PointTarget& target) {
     const Vec3 d = target.face.centre - point.position;
     const double height = target.face.plane.height(point.position);
     const double rise = glm::dot(d, point.normal) + target.face.radius;
@@ -56,7 +56,7 @@ ConvexPart TargetView::directions_of(const ConvexPart& part) const {
 }
 
 /// Returns the directions in which a facet lies in front of a target; empty where it does not.
-ConvexPart TargetView::cover_of(std::uint32_t facet, const Target& target) const {
+ConvexPart TargetView::cover_of(std::uint32_t facet, const PointTarget& target) const {
     if (facet == target.facet || facet == point_.facet)
         return {};
     const ConvexPart above = in_front(part_of(mesh_.shape_of(facet)), horizon_, height_rounding);
@@ -68,7 +68,7 @@ ConvexPart TargetView::cover_of(std::uint32_t facet, const Target& target) const
 
 /// Returns whether the facet that hides the middle of a target hides all of it, as most of those do
 /// that are not seen.
-bool TargetView::is_hidden_by_one(const Target& target, const ConvexPart& whole) {
+bool TargetView::is_hidden_by_one(const PointTarget& target, const ConvexPart& whole) {
     Vec3 middle(0.0);
     for (const Vec3& corner : whole.corners())
         middle += corner / static_cast<double>(whole.size);
@@ -84,7 +84,7 @@ bool TargetView::is_hidden_by_one(const Target& target, const ConvexPart& whole)
 }
 
 /// Collects what lies in front of a target, the largest first.
-void TargetView::find_covers(const Target& target, const ConvexPart& part) {
+void TargetView::find_covers(const PointTarget& target, const ConvexPart& part) {
     Shaft room;
     room.add(-horizon_.normal, -glm::dot(horizon_.normal, horizon_.point) - height_rounding);
     const Plane& plane = target.face.plane;
@@ -126,7 +126,7 @@ bool TargetView::cut_out(const ConvexPart& whole) {
 
 /// Multiplies the free factor by the share of rays that arrive. Its variance is that of independent
 /// rays, with half a ray on either side besides, so that it is never 0.
-Seen TargetView::by_rays(const Target& target, double free, std::uint64_t seed) const {
+SeenFactor TargetView::by_rays(const PointTarget& target, double free, std::uint64_t seed) const {
     constexpr std::uint32_t fewest = 64, most = 1 << 14;
     const ProjectedPolygon polygon(point_.position, frame_, target.face.shape);
     if (!(polygon.factor() > 0))
@@ -156,7 +156,7 @@ Seen TargetView::by_rays(const Target& target, double free, std::uint64_t seed) 
     }
 }
 
-Seen TargetView::see(const Target& target, std::uint64_t seed) {
+SeenFactor TargetView::see(const PointTarget& target, std::uint64_t seed) {
     const ConvexPart part = in_front(part_of(target.face.shape), horizon_, height_rounding);
     if (part.empty())
         return {};
@@ -169,7 +169,7 @@ Seen TargetView::see(const Target& target, std::uint64_t seed) {
     find_covers(target, part);
     if (!cut_out(whole))
         return by_rays(target, free, seed);
-    Seen seen;
+    SeenFactor seen;
     for (const ConvexPart& piece : seen_.pieces()) {
         seen.factor += factor_of(piece);
         const ConvexPart above = cut_by_plane(piece, up_);

@@ -13,18 +13,18 @@
 namespace hemilux {
 
 /// A side of a facet or of a part of it, as a point may see it.
-struct Target {
+struct PointTarget {
     FacePlane face;
     std::uint32_t facet;
     std::uint32_t column; ///< surface; none: back of a one-sided facet
 };
 
 /// Returns about the factor of a target that nothing hides, rather too large than too small.
-[[nodiscard]] double rough_factor(const FactorPoint& point, const Target& target);
+[[nodiscard]] double rough_factor(const FactorPoint& point, const PointTarget& target);
 
 /// What is seen of a target: a factor, its variance, and how much of it is above the level of the
 /// point, towards the sky.
-struct Seen {
+struct SeenFactor {
     double factor = 0, variance = 0, above = 0;
 };
 
@@ -38,7 +38,7 @@ class TargetView {
     /// Goes to a point; it has to before it sees anything.
     void move_to(const FactorPoint& point);
     /// Returns what is seen of a target in front of which the point is.
-    [[nodiscard]] Seen see(const Target& target, std::uint64_t seed);
+    [[nodiscard]] SeenFactor see(const PointTarget& target, std::uint64_t seed);
 
   private:
     struct Cover {
@@ -46,11 +46,12 @@ class TargetView {
         double factor;
     };
     [[nodiscard]] ConvexPart directions_of(const ConvexPart& part) const;
-    [[nodiscard]] ConvexPart cover_of(std::uint32_t facet, const Target& target) const;
-    [[nodiscard]] bool is_hidden_by_one(const Target& target, const ConvexPart& whole);
-    void find_covers(const Target& target, const ConvexPart& part);
+    [[nodiscard]] ConvexPart cover_of(std::uint32_t facet, const PointTarget& target) const;
+    [[nodiscard]] bool is_hidden_by_one(const PointTarget& target, const ConvexPart& whole);
+    void find_covers(const PointTarget& target, const ConvexPart& part);
     [[nodiscard]] bool cut_out(const ConvexPart& whole);
-    [[nodiscard]] Seen by_rays(const Target& target, double free, std::uint64_t seed) const;
+    [[nodiscard]] SeenFactor by_rays(const PointTarget& target, double free,
+                                     std::uint64_t seed) const;
 
     const Mesh& mesh_;
     const WideBvh& tree_;
