@@ -1,5 +1,6 @@
 // view_factors: the factors of the program's `viewfactors`, as the arrays of a sparse matrix.
 
+#include "app/factors/factor_points.h"
 #include "app/factors/factor_run.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/factor_aim.h"
@@ -97,22 +98,58 @@ py::dict result_of(ViewFactors factors, const FactorSurfaces& surfaces, double r
     return result;
 }
 
+/// Returns the rows of points as the arrays of a sparse matrix.
+py::dict points_of(const std::vector<PointFactors>& rows) {
+    std::vector<std::uint64_t> begin(1, 0);
+    std::vector<std::uint32_t> column;
+    std::vector<double> factor, error, bound;
+    for (const PointFactors& row : rows) {
+        column.insert(column.end(), row.column.begin(), row.column.end());
+        factor.insert(factor.end(), row.factor.begin(), row.factor.end());
+        error.insert(error.end(), row.standard_error.begin(), row.standard_error.end());
+        begin.push_back(column.size());
+        bound.push_back(row.unlisted_bound);
+    }
+    const auto open = [&rows](double OpenShare::*member) {
+        return array_by<Vec3>(rows.size(), [&rows, member](std::size_t i) {
+            const auto& [sky, ground, back] = rows[i].open;
+            return Vec3(sky.*member, ground.*member, back.*member);
+        });
+    };
+    py::dict result;
+    result["open"] = open(&OpenShare::factor);
+    result["open_standard_error"] = open(&OpenShare::standard_error);
+    result["unlisted_bound"] = array_of(std::move(bound));
+    result["indptr"] = array_as<std::int64_t>(std::move(begin));
+    result["indices"] = array_as<std::int32_t>(std::move(column));
+    result["data"] = array_of(std::move(factor));
+    result["standard_error"] = array_of(std::move(error));
+    return result;
+}
+
 py::dict compute(const PythonMesh& mesh, double error, const std::string& of, const std::string& by,
                  std::uint32_t rays, int up, std::uint64_t seed, unsigned threads,
-                 const py::object& progress) {
+                 const Doubles& positions, const Doubles& normals, const py::object& progress) {
     const ViewFactorSettings settings = settings_of(error, of, by, rays, seed, threads);
     Monitor monitor;
     FactorSurfaces surfaces;
     ViewFactors factors;
     double reciprocity = 0;
+    std::vector<FactorPlace> places;
+    for (std::size_t k = 0; k < rows_of(positions).size(); ++k)
+        places.push_back({{}, rows_of(positions)[k], rows_of(normals)[k]});
+    std::vector<PointFactors> points;
     run_without_lock(monitor, progress, [&] {
         surfaces = factor_surfaces(mesh.mesh(), settings.by);
-        factors =
-            compute_factors(settings, {mesh.mesh(), mesh.tree(threads), surfaces, up}, monitor);
+        const FactorScene scene{mesh.mesh(), mesh.tree(threads), surfaces, up};
+        factors = compute_factors(settings, scene, monitor);
+        points =
+            compute_points(settings, scene, factor_points(places, scene.mesh, scene.tree), monitor);
         reciprocity = worst_reciprocity(factors);
     });
     py::dict result = result_of(std::move(factors), surfaces, reciprocity);
     result["least"] = settings.aim.least; // of above:F
+    result["points"] = points_of(points);
     return result;
 }
 

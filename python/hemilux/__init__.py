@@ -10,7 +10,7 @@ seed, whatever the number of threads. Lengths are in one unit of your choice, he
 
 from ._compare import Comparison, compare
 from ._density import Density, density
-from ._factors import ViewFactors
+from ._factors import PointFactors, ViewFactors
 from ._hemilux import __version__
 from ._mesh import Mesh, read
 from ._rays import Hits, Rays, rays
@@ -22,6 +22,7 @@ __all__ = [
     "Density",
     "Hits",
     "Mesh",
+    "PointFactors",
     "Rays",
     "Solution",
     "ViewFactors",

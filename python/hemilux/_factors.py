@@ -15,6 +15,41 @@ OPEN = ("sky", "ground", "back")
 _Path = Union[str, "os.PathLike[str]"]
 
 
+class PointFactors:
+    """View factors from points with normals: the share of what a facet at each sends out.
+
+    Rows sum to 1 with sky, ground and backs.
+
+    Attributes
+    ----------
+    matrix : scipy.sparse.csr_matrix of float64, shape (p, n)
+        View factors from each point to each surface [-].
+    standard_error : scipy.sparse.csr_matrix of float64
+        Of each factor [-], with the same entries; 0: the factor is exact.
+    sky, ground, back : ndarray of float64, shape (p,)
+        Shares that leave the scene upwards and downwards, and that meet backs of one-sided faces [-].
+    sky_standard_error, ground_standard_error, back_standard_error : ndarray of float64, shape (p,)
+        Their standard errors [-].
+    unlisted_bound : ndarray of float64, shape (p,)
+        The sum of the factors of a row that are not listed is below this in 95 of 100 rows [-].
+    """
+
+    def __init__(self, found: dict[str, Any], surfaces: int) -> None:
+        self.unlisted_bound = found["unlisted_bound"]
+        self.matrix, self.standard_error = (
+            scipy.sparse.csr_matrix((found[data], found["indices"], found["indptr"]),
+                                    (len(self), surfaces)) for data in ("data", "standard_error"))
+        self.sky, self.ground, self.back = np.ascontiguousarray(found["open"].T)
+        self.sky_standard_error, self.ground_standard_error, self.back_standard_error = \
+            np.ascontiguousarray(found["open_standard_error"].T)
+
+    def __len__(self) -> int:
+        return len(self.unlisted_bound)
+
+    def __repr__(self) -> str:
+        return f"<hemilux.PointFactors of {len(self)} points, {self.matrix.nnz} factors>"
+
+
 class ViewFactors:
     """A matrix of view factors: F[i, j] is the share of what surface i sends out that reaches j.
 
@@ -36,12 +71,17 @@ class ViewFactors:
         Shares that leave the scene upwards and downwards, and that meet backs of one-sided faces
         [-]. None where a loaded file does not have them.
     sky_standard_error, ground_standard_error, back_standard_error : ndarray of float64, or None
-        Their standard errors [-]; 0 where no ray of a surface tells that its rest has two parts.
+        Their standard errors [-]. Where no ray went one way, half of what is possible in 95 % of all
+        cases.
     unlisted_bound : ndarray of float64, shape (n,), or None
         The sum of the factors of a row that are not listed is below this in 95 of 100 rows [-].
     audit : dict of str to float
         How well the factors agreed before rows were closed; `view_factors` explains its keys.
+    points : PointFactors or None
+        The rows of points, where ``points=`` has some. Files and sums over groups leave them out.
     """
+
+    points: Optional[PointFactors] = None
 
     def __init__(self, factors: scipy.sparse.csr_matrix, errors: scipy.sparse.csr_matrix,
                  area: np.ndarray, name: list[str], shares: dict[str, Optional[np.ndarray]],
@@ -157,6 +197,9 @@ class ViewFactors:
     def load(path: _Path) -> "ViewFactors":
         """Read what `save` or ``hemilux viewfactors -o factors.npz`` wrote.
 
+        Bands of the sky are summed to ``sky``, and rows of points are left out;
+        ``scipy.sparse.load_npz`` reads these.
+
         Parameters
         ----------
         path : str or path
@@ -168,8 +211,9 @@ class ViewFactors:
         with np.load(os.fspath(path)) as file:
             size = len(file["area"])
             name = [text.decode("utf-8") for text in file["name"].tolist()]
-            columns = tuple(name[size:])
             shape = tuple(file["shape"].tolist())
+            place = {key: size + k for k, key in enumerate(name[size:shape[1]])}
+            columns = tuple(key for key in place if key in OPEN)
             matrix, errors = (scipy.sparse.csr_matrix((file[data], file["indices"], file["indptr"]),
                                                       shape) for data in ("data", "standard_error"))
             shares: dict[str, Optional[np.ndarray]] = {}
@@ -177,8 +221,10 @@ class ViewFactors:
                 for end, source in (("", matrix), ("_standard_error", errors)):
                     shares[key + end] = file[key + end] if key + end in file else None
                     if shares[key + end] is None and key in columns:
-                        column = source[:size, size + columns.index(key)]
-                        shares[key + end] = column.toarray().reshape(-1)
+                        shares[key + end] = source[:size, place[key]].toarray().reshape(-1)
+            bands = [k for key, k in place.items() if key not in OPEN]
+            if bands:
+                shares["sky"] = np.asarray(matrix[:size, bands].sum(axis=1)).reshape(-1)
             bound = file["unlisted_bound"] if "unlisted_bound" in file else None
             audit = {key.removeprefix("audit_"): file[key].item()
                      for key in file.files if key.startswith("audit_")}
@@ -192,6 +238,8 @@ def _or_zeros(values: Optional[np.ndarray], size: int) -> np.ndarray:
 
 def _on_entries_of(pattern: scipy.sparse.csr_matrix, values: Any) -> scipy.sparse.csr_matrix:
     """Return the values at the entries of the pattern, zeros among them."""
+    if pattern.nnz == 0:
+        return pattern.copy()
     rows = np.repeat(np.arange(pattern.shape[0]), np.diff(pattern.indptr))
     data = np.asarray(values.tocsr()[rows, pattern.indices]).reshape(-1)
     return scipy.sparse.csr_matrix((data, pattern.indices, pattern.indptr), pattern.shape)

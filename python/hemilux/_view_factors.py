@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Optional
+from typing import Any, Optional
 
 import numpy as np
 import scipy.sparse
 
 from . import _hemilux
 from ._checks import Progress, axis, natural, threads_and_seed, warn
-from ._factors import OPEN, ViewFactors
+from ._factors import OPEN, PointFactors, ViewFactors
 from ._mesh import Mesh
 
 
@@ -17,8 +17,8 @@ def _error_reached(factors: ViewFactors, of: str, least: float) -> float:
     """Return the error that ``of`` means, as the program reports it."""
     matrix, errors = factors._factors, factors._errors
     if of == "sky":
-        return max((float(np.max(factors._shares[k + "_standard_error"]
-                                 / np.maximum(factors._shares[k], 0.01), initial=0))
+        return max((float(np.max(np.where(factors._shares[k] > 0, factors._shares[k + "_standard_error"]
+                                          / np.maximum(factors._shares[k], 0.01), 0), initial=0))
                     for k in OPEN[:2]))
     if of == "rows":
         return float(np.sqrt(np.max(np.asarray(errors.power(2).sum(axis=1)), initial=0)))
@@ -36,7 +36,7 @@ def _error_reached(factors: ViewFactors, of: str, least: float) -> float:
 
 def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by: str = "face",
                  sky: bool = False, ground: bool = False, rays: int = 1024,
-                 up: Optional[str] = None, threads: int = 0, seed: int = 1,
+                 up: Optional[str] = None, points: Any = None, threads: int = 0, seed: int = 1,
                  progress: Progress = None) -> ViewFactors:
     """Compute the view factors between all surfaces, as ``hemilux viewfactors``.
 
@@ -58,6 +58,8 @@ def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by
         Rays of each patch that find who sees whom, a power of two from 256.
     up : {'x', 'y', 'z'}, optional
         The axis that points to the sky; by default that of the mesh.
+    points : array_like of float, shape (p, 6), optional
+        Points with normals x, y, z, nx, ny, nz that get rows of their own, in ``.points``.
     threads : int, optional
         Threads; 0: one per core. The result does not depend on it.
     seed : int, optional
@@ -90,9 +92,10 @@ def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by
         for surfaces that see nothing but backs of faces.
     """
     number, chosen_seed = threads_and_seed(threads, seed)
+    places = _places("points", points)
     found = _hemilux.view_factors(mesh._core, float(error), of, by, natural("rays", rays, 2**20),
                                   mesh._core.up if up is None else axis(up), chosen_seed, number,
-                                  progress)
+                                  places[:, :3], places[:, 3:], progress)
     n = len(found["area"])
     factors, errors = (scipy.sparse.csr_matrix((found[data], found["indices"], found["indptr"]),
                                                (n, n)) for data in ("data", "standard_error"))
@@ -103,8 +106,22 @@ def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by
     columns = ("sky",) * sky + ("ground",) * ground
     result = ViewFactors(factors, errors, found["area"], found["name"], shares,
                          found["unlisted_bound"], found["audit"], columns)
+    if points is not None:
+        result.points = PointFactors(found["points"], n)
     _warn_of(result, of, found["least"], error)
     return result
+
+
+def _places(argument: str, points: Any) -> np.ndarray:
+    """Return points with normals as an array (p, 6), none for None."""
+    if points is None:
+        return np.empty((0, 6))
+    places = np.asarray(points, dtype=float)
+    if places.ndim != 2 or places.shape[1] != 6 or not np.isfinite(places).all():
+        raise ValueError(f"{argument}: expected rows of six numbers x, y, z, nx, ny, nz")
+    if not places[:, 3:].any(axis=1).all():
+        raise ValueError(f"{argument}: expected a normal that is not 0, 0, 0")
+    return places
 
 
 def _warn_of(factors: ViewFactors, of: str, least: float, error: float) -> None:

@@ -120,6 +120,20 @@ def test_a_file_gives_back_what_was_saved(tmp_path):
             found.save(tmp_path / name)
 
 
+def test_points_have_rows_of_their_own():
+    x, y = np.meshgrid([.2, .5], [.3, .5])
+    places = np.stack([x, y, 0 * x, 0 * x, 0 * x, 0 * x + 2], -1).reshape(-1, 6)
+    found = hemilux.view_factors(squares("ceiling", "wall"), points=places).points
+    assert (found.matrix.shape, len(found)) == ((4, 2), 4)
+    corner = 0.5 / np.sqrt(1.25)
+    assert found.matrix[3, 0] == pytest.approx(4 / np.pi * corner * np.arctan(corner), abs=1e-12)
+    total = np.asarray(found.matrix.sum(axis=1)).ravel() + found.sky + found.ground + found.back
+    assert total == pytest.approx(np.ones(4), abs=1e-12)
+    assert not found.standard_error.data.any() and not found.unlisted_bound.any()
+    assert not found.sky_standard_error.any()
+    assert hemilux.view_factors(squares("ceiling")).points is None
+
+
 @pytest.mark.skipif(not PROGRAM, reason="the program is not named by HEMILUX_PROGRAM")
 def test_the_program_finds_the_same_bytes(tmp_path):
     corners = np.concatenate(list(UNIT_SQUARES.values()) + [[[.3, .3, .5], [.7, .3, .5],
@@ -139,6 +153,21 @@ def test_the_program_finds_the_same_bytes(tmp_path):
         assert found.area.tobytes() == of_program.area.tobytes()
         assert found.sky.tobytes() == of_program.sky.tobytes()
     assert of_program.ground is None
+
+
+@pytest.mark.skipif(not PROGRAM, reason="the program is not named by HEMILUX_PROGRAM")
+def test_bands_and_points_of_the_program_are_read_as_sky_and_surfaces(tmp_path):
+    (tmp_path / "floor.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+    (tmp_path / "points.txt").write_text("0.5 0.5 1 0 0 -1\n0.5 0.5 1 1 0 0\n")
+    subprocess.run([PROGRAM, "viewfactors", tmp_path / "floor.obj", "-q", "--sky-bands", "3",
+                    "--ground", "--points", tmp_path / "points.txt", "-o", tmp_path / "f.npz"],
+                   check=True)
+    whole = scipy.sparse.load_npz(tmp_path / "f.npz")
+    assert whole.shape == (1 + 3 + 1 + 2, 1 + 3 + 1)
+    assert np.asarray(whole.sum(axis=1)).ravel() == pytest.approx([1, 0, 0, 0, 0, 1, 1])
+    found = hemilux.ViewFactors.load(tmp_path / "f.npz")
+    assert found.sky.tolist() == pytest.approx([1]) and found.sky_standard_error is None
+    assert found.matrix.shape == (2, 2) and found.ground.tolist() == [0]
 
 
 def test_an_error_that_is_not_reached_is_reported():
@@ -166,6 +195,8 @@ def test_turned_faces_are_named():
     (dict(rays=1024.0), "rays: expected a whole number"),
     (dict(threads=-1), "threads: expected a whole number from 0"),
     (dict(seed=-1), "seed: expected a whole number from 0"),
+    (dict(points=[[0, 0, 0]]), "points: expected rows of six numbers"),
+    (dict(points=[[0, 0, 0, 0, 0, 0]]), "points: expected a normal"),
     (dict(up="w"), "up: expected 'x', 'y' or 'z'"),
 ])
 def test_what_is_wrong_is_named(arguments, message):

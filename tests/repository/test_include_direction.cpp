@@ -37,6 +37,7 @@ const std::vector<std::string> rooms{
     "radiosity/engine/sparse",
     "radiosity/engine/form_factors",
     "radiosity/engine/view_factors",
+    "radiosity/engine/point_views",
     "radiosity/engine/linear",
     "radiosity/engine/densities",
     "radiosity/engine/shooting",

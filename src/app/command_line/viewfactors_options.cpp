@@ -2,6 +2,7 @@
 #include "app/command_line/option_kinds.h"
 #include "app/command_line/options.h"
 #include "app/settings/factor_aim.h"
+#include "geometry/numeric.h"
 
 #include <bit>
 
@@ -14,6 +15,8 @@ constexpr const char* viewfactors_examples = R"(Examples:
   hemilux viewfactors room.obj --by group --sky -o factors.npz
   hemilux viewfactors room.obj --error 0.5% --of above:0.01 -o factors.npz
   hemilux viewfactors city.stl -o vfsparse.inp.001 -o svf.inp.001
+  hemilux viewfactors room.obj --by group --points seats.txt -o factors.csv --legend rows.csv
+  hemilux viewfactors city.stl --suns june.txt --sunlit june.csv
   hemilux viewfactors city.stl --of sky -o sky.vtu --legend sky.csv
 )";
 
@@ -21,6 +24,24 @@ std::optional<std::uint32_t> rays_from(const std::string& text) {
     const std::optional<std::uint64_t> value = parse_whole(text);
     return value && std::has_single_bit(*value) && *value >= 256 && *value <= (1u << 20)
                ? std::optional(static_cast<std::uint32_t>(*value))
+               : std::nullopt;
+}
+
+std::optional<Vec3> direction_from(const std::string& text) {
+    const std::optional<std::vector<double>> numbers = parse_numbers(text, ',');
+    if (!numbers || numbers->size() != 3)
+        return {};
+    const Vec3 direction((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+    return direction == Vec3(0.0) ? std::nullopt : std::optional(direction_of(direction));
+}
+
+std::optional<SkyDivision> bands_from(const std::string& text) {
+    constexpr std::uint64_t most = 90;
+    if (text == "tregenza")
+        return SkyDivision{};
+    const std::optional<std::uint64_t> steps = parse_whole(text);
+    return steps && *steps >= 1 && *steps <= most
+               ? std::optional(SkyDivision{static_cast<unsigned>(*steps)})
                : std::nullopt;
 }
 
@@ -44,6 +65,9 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
                "[face]");
     add_error(method, "--error", settings.error,
               "the standard error that is aimed at, relative [1%]");
+    add_seconds(method, "--time", settings.seconds, positive,
+                "end the search for better factors after this time, and report the error that was "
+                "reached; 2m and 1h are minutes and hours");
     add_parsed(
         method, "--of", "above:F|rows|largest|pair:A,B|sky",
         "what it is of: factors of at least F, their root mean square; the factors of each "
@@ -57,11 +81,28 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
                "a power of two from 256 to 1048576", rays_from,
                [&settings](std::uint32_t rays) { settings.rays = rays; });
     method.add_flag("--sky", settings.sky, "make the sky a column: what leaves the scene upwards");
+    add_parsed(
+        method, "--sky-bands", "N|tregenza",
+        "divide the column of the sky into N bands of equal altitude, or into the 145 patches "
+        "of Tregenza",
+        "a whole number from 1 to 90 or tregenza", bands_from,
+        [&settings](const SkyDivision& division) {
+            settings.sky_bands = division;
+            settings.sky = true;
+        });
     method.add_flag("--ground", settings.ground,
                     "make the ground a column: what leaves the scene downwards");
     add_choice<int>(method, "--up", {{0, "x"}, {1, "y"}, {2, "z"}},
                     "the axis that points to the sky [y for glTF, else z]",
                     [&settings](int axis) { settings.up = axis; });
+    method.add_text("--points", "FILE", settings.points,
+                    "points with normals that get rows of their own: rows x,y,z,nx,ny,nz");
+    add_parsed(method, "--sun", "X,Y,Z",
+               "the direction to the sun, not that of its light as for solve; for --sunlit",
+               "three numbers X,Y,Z that are not all 0", direction_from,
+               [&settings](const Vec3& direction) { settings.sun = direction; });
+    method.add_text("--suns", "FILE", settings.suns,
+                    "more directions to the sun, for --sunlit: rows x,y,z");
     add_random_options(method, settings.options);
     const Command output = command.under(output_group);
     add_parsed(
@@ -71,12 +112,14 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
         "a file name that ends with .csv, .npz, .npy or .vtu, or begins with vfsparse.inp or "
         "svf.inp",
         output_from, [&settings](const std::string& path) { settings.outputs.push_back(path); })
-        .repeatable()
-        .required();
-    add_path(
-        output, "--legend", "FILE",
-        "a table of the surfaces: name, face, group, area, centre, normal, sky, sum of the row",
-        ".csv", [&settings](const std::string& path) { settings.legend = path; });
+        .repeatable();
+    add_path(output, "--legend", "FILE",
+             "a table of the rows: name, face, group, area, centre, normal, sky, sum of the row",
+             ".csv", [&settings](const std::string& path) { settings.legend = path; });
+    add_path(output, "--sunlit", "FILE",
+             "a table of the share of each surface that the sun shines on: sun, surface, sunlit, "
+             "standard_error",
+             ".csv", [&settings](const std::string& path) { settings.sunlit = path; });
     add_verbosity_options(command, settings.verbosity);
     command.end_help_with(viewfactors_examples);
     return command;

@@ -2,8 +2,11 @@
 
 #include "app/commands/commands.h"
 #include "app/factors/factor_audit.h"
+#include "app/factors/factor_points.h"
 #include "app/factors/factor_run.h"
 #include "app/factors/factor_surfaces.h"
+#include "app/factors/sunlit_run.h"
+#include "app/gathering/point_table.h"
 #include "app/loading/load.h"
 #include "app/memory/memory.h"
 #include "app/running/signals.h"
@@ -16,8 +19,10 @@
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
 #include "bvh/wide/wide_bvh.h"
+#include "io/files/error.h"
 #include "io/meshes/factor_cells.h"
 #include "io/results/view_factor_files.h"
+#include "io/results/view_factor_legend.h"
 
 #include <optional>
 
@@ -33,13 +38,22 @@ struct LoadedSurfaces {
     MemoryNeed need; ///< but for the pairs, whose number the rays find
 };
 
+std::optional<SkyBands> bands_of(const ViewFactorSettings& settings, int up) {
+    if (!settings.sky_bands)
+        return {};
+    return settings.sky_bands->steps > 0 ? SkyBands::of_equal_steps(settings.sky_bands->steps, up)
+                                         : SkyBands::tregenza(up);
+}
+
 /// Returns the need but for the pairs: planes and names of surfaces, and what threads look at.
 MemoryNeed need_of(const Scene& scene, const ViewFactorSettings& settings) {
-    constexpr double per_patch = 1500, of_thread = 16e6;
+    constexpr double per_patch = 1500, of_thread = 16e6, per_band = 2 * sizeof(OpenShare);
     const double patches = patches_of(scene, settings.scene.mesh);
     MemoryNeed need = memory_need(scene, settings.scene.mesh, settings.options, {});
     need.method = Workers(settings.options.threads).threads() * of_thread;
-    need.results = per_patch * patches;
+    const std::optional<SkyBands> bands = bands_of(settings, 0);
+    need.results =
+        (per_patch + (bands ? per_band * static_cast<double>(bands->size()) : 0)) * patches;
     return need;
 }
 
@@ -61,9 +75,21 @@ LoadedSurfaces load_surfaces(const ViewFactorSettings& settings, const RunFiles&
     return {std::move(mesh), settings.up.value_or(view.up.value_or(2)), need};
 }
 
-void check_dense(const ViewFactorSettings& settings, std::size_t rows) {
-    const auto n = static_cast<double>(rows + (settings.sky ? 1 : 0) + (settings.ground ? 1 : 0));
-    const double bytes = n * n * sizeof(double);
+/// Reads the file of --points, if there is one.
+std::vector<NamedPoint> points_of(const ViewFactorSettings& settings, const RunFiles& files) {
+    if (settings.points.empty())
+        return {};
+    files.read("file of --points", settings.points);
+    if (is_same_stream(settings.points, settings.scene.path))
+        throw UsageError("--points: '" + settings.points + "' is a pipe, which can be read once");
+    return read_points(settings.points);
+}
+
+void check_dense(const ViewFactorSettings& settings, std::size_t rows, std::size_t points,
+                 const std::optional<SkyBands>& bands) {
+    const std::size_t sky = bands ? bands->size() : settings.sky ? 1 : 0;
+    const auto n = static_cast<double>(rows + sky + (settings.ground ? 1 : 0));
+    const double bytes = n * (n + static_cast<double>(points)) * sizeof(double);
     for (const std::string& path : settings.outputs)
         if (factor_file_of(path) == FactorFile::dense &&
             bytes > ViewFactorSettings::max_dense_bytes)
@@ -104,50 +130,141 @@ void write(const std::string& path, const ViewFactorSettings& settings, const Me
     }
 }
 
-} // namespace
+/// What a run computes; what it is computed of outlives it.
+struct FoundFactors {
+    bool has_factors = false;
+    ViewFactors factors;
+    std::vector<FactorPlace> places;
+    std::vector<FactorPoint> points;
+    std::vector<PointFactors> point_rows;
+};
 
-int viewfactors(const ViewFactorSettings& settings) {
-    std::vector<std::string> outputs = settings.outputs;
-    if (!settings.legend.empty())
-        outputs.push_back(settings.legend);
-    const RunFiles files = check_files(outputs, settings.scene.path);
-    Monitor monitor;
-    InterruptGuard guard;
-    const LoadedSurfaces loaded = load_surfaces(settings, files);
-    const FactorSurfaces surfaces = factor_surfaces(loaded.mesh, settings.by);
-    check_dense(settings, surfaces.rows.size());
-    check_sky(settings);
-    const Stopwatch computing;
-    const WideBvh tree(loaded.mesh.soup_to_trace(), {.threads = settings.options.threads});
-    guard.watch(monitor.interrupted.own().wished);
-    std::optional<Stage> stage(std::in_place, "finding factors", settings.verbosity);
-    const ViewFactors factors = compute_factors(
-        settings,
-        {loaded.mesh, tree, surfaces, loaded.up,
-         memory_guard(loaded.need, settings.scene.memory, settings.scene.path, advice_for_memory)},
-        monitor);
-    if (monitor.interrupted) {
-        log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
-        return exit_code_of_signal();
-    }
-    log_audit(settings, surfaces, factors, computing.seconds());
-    FactorTable table{factors,
-                      surfaces.rows,
+/// Returns whether anything but --sunlit is to be written.
+bool wants_factors(const ViewFactorSettings& settings) {
+    return !settings.outputs.empty() || !settings.legend.empty();
+}
+
+/// Computes what is to be written, and logs how exact it is.
+FoundFactors compute(const ViewFactorSettings& settings, const FactorScene& scene,
+                     std::span<const NamedPoint> points, Monitor& monitor) {
+    const Stage stage("finding factors", settings.verbosity);
+    const Stopwatch watch;
+    FoundFactors results;
+    results.places = places_of(points);
+    results.points = factor_points(results.places, scene.mesh, scene.tree);
+    if (!wants_factors(settings))
+        return results;
+    results.factors = compute_factors(settings, scene, monitor);
+    results.has_factors = results.factors.rows() > 0;
+    if (!results.has_factors)
+        return results;
+    log_audit(settings, scene.surfaces, results.factors, watch.seconds());
+    const Stopwatch at_points;
+    results.point_rows = compute_points(settings, scene, results.points, monitor);
+    log_points(settings, results.point_rows, at_points.seconds());
+    return results;
+}
+
+FactorTable table_of(const ViewFactorSettings& settings, const FactorScene& scene,
+                     const FoundFactors& results, const Monitor& monitor) {
+    FactorTable table{results.factors,
+                      scene.surfaces.rows,
                       {},
-                      &monitor.interrupted.own().wished,
-                      settings.aim.of != FactorAim::Of::sky};
+                      monitor.interrupted ? nullptr : &monitor.interrupted.own().wished,
+                      settings.aim.of != FactorAim::Of::sky,
+                      results.point_rows,
+                      results.places,
+                      scene.bands};
     if (settings.sky)
         table.columns.push_back(Open::sky);
     if (settings.ground)
         table.columns.push_back(Open::ground);
-    stage.reset();
-    stage.emplace("writing", settings.verbosity);
+    return table;
+}
+
+/// The directions to the sun, that of --sun first.
+std::vector<Vec3> suns_of(const ViewFactorSettings& settings, const RunFiles& files) {
+    std::vector<Vec3> suns;
+    if (settings.sun)
+        suns.push_back(*settings.sun);
+    if (!settings.suns.empty()) {
+        files.read("file of --suns", settings.suns);
+        const std::vector<Vec3> more = read_directions(settings.suns);
+        suns.insert(suns.end(), more.begin(), more.end());
+    }
+    if (suns.empty() != settings.sunlit.empty())
+        throw UsageError(suns.empty() ? "--sunlit: name the sun by --sun or --suns"
+                                      : "--sun and --suns are for --sunlit FILE.csv");
+    return suns;
+}
+
+/// Returns the files of the run. Throws UsageError where there is nothing to write.
+RunFiles files_of(const ViewFactorSettings& settings) {
+    std::vector<std::string> outputs = settings.outputs;
+    for (const std::string& path : {settings.legend, settings.sunlit})
+        if (!path.empty())
+            outputs.push_back(path);
+    if (settings.outputs.empty() && settings.sunlit.empty())
+        throw UsageError("--output: name a file to write, or one of --sunlit");
+    return check_files(outputs, settings.scene.path);
+}
+
+/// Writes all files, and finds the sunlit fractions as they are written.
+WriteReport write_found(const ViewFactorSettings& settings, const FactorScene& scene,
+                        const FoundFactors& results, std::span<const Vec3> suns, Monitor& monitor) {
+    const FactorTable table = table_of(settings, scene, results, monitor);
     WriteReport report;
-    for (const std::string& path : settings.outputs)
-        report.attempt(path, [&] { write(path, settings, loaded.mesh, surfaces, table); });
-    if (!settings.legend.empty())
-        report.attempt(settings.legend, [&] { write_factor_legend(settings.legend, table); });
+    if (results.has_factors) {
+        const Stage stage("writing", settings.verbosity);
+        for (const std::string& path : settings.outputs)
+            report.attempt(path, [&] { write(path, settings, scene.mesh, scene.surfaces, table); });
+        if (!settings.legend.empty())
+            report.attempt(settings.legend, [&] { write_factor_legend(settings.legend, table); });
+    }
+    if (!settings.sunlit.empty())
+        report.attempt(settings.sunlit, [&] {
+            if (monitor.interrupted)
+                throw Interrupted();
+            const Stage stage("finding sunlight", settings.verbosity);
+            const Stopwatch watch;
+            const SunlitRun run = write_sunlit(settings.sunlit, settings, scene, suns,
+                                               results.points, table.size(), monitor);
+            log_sunlit(settings, run, suns.size(), watch.seconds());
+        });
+    return report;
+}
+
+} // namespace
+
+int viewfactors(const ViewFactorSettings& settings) {
+    const RunFiles files = files_of(settings);
+    const std::vector<NamedPoint> points = points_of(settings, files);
+    const std::vector<Vec3> suns = suns_of(settings, files);
+    Monitor monitor;
+    InterruptGuard guard;
+    const LoadedSurfaces loaded = load_surfaces(settings, files);
+    const FactorSurfaces surfaces = factor_surfaces(loaded.mesh, settings.by);
+    const std::optional<SkyBands> bands = bands_of(settings, loaded.up);
+    check_distances(settings.points, points, loaded.mesh);
+    check_dense(settings, surfaces.rows.size(), points.size(), bands);
+    check_sky(settings);
+    const WideBvh tree(loaded.mesh.soup_to_trace(), {.threads = settings.options.threads});
+    guard.watch(monitor.interrupted.own().wished);
+    const FactorScene scene{
+        loaded.mesh,
+        tree,
+        surfaces,
+        loaded.up,
+        memory_guard(loaded.need, settings.scene.memory, settings.scene.path, advice_for_memory),
+        bands ? &*bands : nullptr};
+    const FoundFactors results = compute(settings, scene, points, monitor);
+    const WriteReport report = write_found(settings, scene, results, suns, monitor);
+    if (!results.has_factors && wants_factors(settings) && report.failed.empty()) {
+        log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
+        return exit_code_of_signal();
+    }
     report.log(settings.verbosity);
+    report.log_interruption(settings.verbosity, bool(monitor.interrupted));
     return report.exit_code(bool(monitor.interrupted));
 }
 

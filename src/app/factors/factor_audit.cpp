@@ -48,8 +48,9 @@ void log_error(const ViewFactorSettings& settings, const FactorSurfaces& surface
         constexpr double least = .01;
         for (const auto& open : factors.open)
             for (std::size_t k = 0; k < 2; ++k)
-                reached =
-                    std::max(reached, open[k].standard_error / std::max(open[k].factor, least));
+                if (open[k].factor > 0)
+                    reached =
+                        std::max(reached, open[k].standard_error / std::max(open[k].factor, least));
         text = "sky and ground: " + percent(reached) +
                " of each at most, or of 0.01 where it is smaller";
         break;
@@ -64,14 +65,17 @@ void log_error(const ViewFactorSettings& settings, const FactorSurfaces& surface
     }
     }
     log_line(settings.verbosity, Verbosity::normal, "standard errors: " + text);
-    if (reached > settings.error)
-        log_line(settings.verbosity, Verbosity::normal,
-                 "warning: the error is " + percent(reached) + ", where " +
-                     percent(settings.error) +
-                     " was asked for; most of it is where little is seen past many edges" +
-                     (settings.aim.of == FactorAim::Of::sky
-                          ? ""
-                          : ", and smaller faces (--max-edge) have a smaller one"));
+    if (reached <= settings.error)
+        return;
+    const bool is_cut_short = factors.work.rows_left > 0;
+    log_line(settings.verbosity, Verbosity::normal,
+             "warning: the error is " + percent(reached) + ", where " + percent(settings.error) +
+                 " was asked for; " +
+                 (is_cut_short ? "the run was ended before"
+                               : "most of it is where little is seen past many edges") +
+                 (settings.aim.of == FactorAim::Of::sky || is_cut_short
+                      ? ""
+                      : ", and smaller faces (--max-edge) have a smaller one"));
 }
 
 /// Names a few rows whose views are lost on backs: most likely they are turned.
@@ -117,6 +121,9 @@ void log_audit(const ViewFactorSettings& settings, const FactorSurfaces& surface
         log_line(settings.verbosity, Verbosity::normal, text);
     };
     const ExchangeWork& work = factors.work;
+    if (work.rows_left > 0)
+        line("the run was ended: " + counted(work.rows_left, "patch has", "patches have") +
+             " fewer rays than the error asks for");
     const std::string of_what = counted(factors.rows(), "surface", "surfaces") + " of " +
                                 counted(surfaces.row_of.size(), "patch", "patches") + "; ";
     if (settings.aim.of == FactorAim::Of::sky) {
@@ -151,6 +158,42 @@ void log_audit(const ViewFactorSettings& settings, const FactorSurfaces& surface
              "faces that lie through each other, may be the cause: patch " +
              std::to_string(audit.worst_row) + formatted(" lacked %.2g", audit.lacking_worst));
     log_turned(settings, surfaces, factors);
+}
+
+void log_points(const ViewFactorSettings& settings, std::span<const PointFactors> points,
+                double seconds) {
+    std::size_t known = 0, exact = 0, factors = 0;
+    double worst = 0, unlisted = 0;
+    for (const PointFactors& point : points) {
+        known += point.is_known ? 1 : 0;
+        unlisted = std::max(unlisted, point.unlisted_bound);
+        for (const double error : point.standard_error) {
+            ++factors;
+            exact += error == 0 ? 1 : 0;
+            worst = std::max(worst, error);
+        }
+    }
+    if (points.empty())
+        return;
+    const std::string left = known < points.size()
+                                 ? "; " + grouped(points.size() - known) + " were not reached"
+                                 : std::string();
+    log_line(
+        settings.verbosity, Verbosity::normal,
+        counted(known, "point", "points") + ": " + grouped(exact) + " of " +
+            counted(factors, "factor", "factors") + " exact, the largest standard error " +
+            formatted("%.2g; not listed are at most %.2g of a row (95 %%), ", worst, unlisted) +
+            duration(seconds) + left);
+}
+
+void log_sunlit(const ViewFactorSettings& settings, const SunlitRun& run, std::size_t suns,
+                double seconds) {
+    log_line(settings.verbosity, Verbosity::normal,
+             counted(run.suns, "sun", "suns") + ": " + grouped(run.exact) + " of " +
+                 counted(run.all, "sunlit fraction", "sunlit fractions") +
+                 " exact, the largest standard error " + formatted("%.2g, ", run.worst_error) +
+                 duration(seconds) +
+                 (run.suns < suns ? "; " + grouped(suns - run.suns) + " were not reached" : ""));
 }
 
 } // namespace hemilux

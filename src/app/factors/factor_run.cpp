@@ -2,6 +2,8 @@
 
 #include "app/factors/factor_audit.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/solving/time_limit.h"
+#include "radiosity/engine/view_factors/row_rays.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 
@@ -45,32 +47,46 @@ FactorTolerance tolerance_of(const ViewFactorSettings& settings, const FactorSur
     };
 }
 
+/// With a limit of time, a coarse pass comes first: it takes a fraction of the time of the last,
+/// and what the limit leaves of the last is as exact as it.
+std::vector<double> passes_before(const ViewFactorSettings& settings) {
+    return settings.seconds ? std::vector<double>{4} : std::vector<double>{};
+}
+
 } // namespace
 
 ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScene& scene,
                             Monitor& monitor) {
     const Workers workers(settings.options.threads);
+    const TimeLimit limit(monitor.interrupted, settings.seconds);
     constexpr double first_guess = .01, smallest = 1e-4;
     const auto with_largest = [&](double largest) {
         const ExchangeOptions options{.rays = settings.rays,
                                       .tolerance = tolerance_of(settings, scene.surfaces, largest),
                                       .seed = settings.options.seed,
                                       .up = scene.up,
+                                      .bands = scene.bands,
+                                      .before = passes_before(settings),
                                       .ask = scene.ask};
         return view_factors(scene.mesh, scene.tree, scene.surfaces.row_of,
                             scene.surfaces.rows.size(), options, workers, monitor);
     };
     if (settings.aim.of == FactorAim::Of::sky) {
-        const OpenViews views = find_open_views(scene.mesh, scene.tree, settings.error,
-                                                settings.options.seed, scene.up, workers, monitor);
+        const OpenViews views =
+            find_open_views(scene.mesh, scene.tree, settings.error, settings.options.seed, scene.up,
+                            scene.bands, workers, monitor);
         ExchangeList list;
         for (const Patch& patch : scene.mesh.patches())
             list.area.push_back(patch.area);
         list.pairs.resize(list.area.size());
         list.unlisted_bound.resize(list.area.size());
         list.open = views.open;
+        list.bands = views.bands;
+        if (views.is_void)
+            return {};
         ViewFactors factors =
             sum_over_rows(list, scene.surfaces.row_of, scene.surfaces.rows.size());
+        factors.work.rows_left = views.rows_left;
         factors.work.rays = views.rays;
         return factors;
     }
@@ -80,8 +96,26 @@ ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScen
     const LargestFactors found = largest_factors(factors);
     if (found.worst_error <= settings.error || found.smallest >= first_guess)
         return factors;
-    factors = {}; // before there are others
-    return with_largest(std::max(found.smallest, smallest));
+    if (!settings.seconds)
+        factors = {}; // before there are others
+    ViewFactors better = with_largest(std::max(found.smallest, smallest));
+    if (better.work.rows_left > 0 && factors.rows() > 0)
+        return factors;
+    return better;
+}
+
+std::vector<PointFactors> compute_points(const ViewFactorSettings& settings,
+                                         const FactorScene& scene,
+                                         std::span<const FactorPoint> points, Monitor& monitor) {
+    const PointFactorOptions options{.error = settings.error,
+                                     .least = settings.aim.least,
+                                     .rays = settings.rays,
+                                     .seed = settings.options.seed,
+                                     .up = scene.up,
+                                     .bands = scene.bands,
+                                     .ask = scene.ask};
+    return point_factors(points, scene.mesh, scene.tree, scene.surfaces.row_of, options,
+                         Workers(settings.options.threads), monitor);
 }
 
 } // namespace hemilux

@@ -3,9 +3,12 @@
 
 #include "app/factors/factor_surfaces.h"
 #include "bvh/wide/wide_bvh.h"
+#include "radiosity/engine/point_views/point_factors.h"
 #include "radiosity/engine/view_factors/view_factors.h"
 
 #include <functional>
+#include <span>
+#include <vector>
 
 namespace hemilux {
 
@@ -16,12 +19,21 @@ struct FactorScene {
     const FactorSurfaces& surfaces;
     int up;                                     ///< axis that points to the sky
     std::function<void(double bytes)> ask = {}; ///< ExchangeOptions::ask
+    const SkyBands* bands = nullptr;            ///< parts of the sky, if they are asked for
 };
 
-/// Computes the factors by `error`, `aim`, `rays`, seed and threads of the settings. With `largest`
-/// it does so again where the largest factor of a row is smaller than was thought. The result is
-/// void if the monitor was interrupted. Throws UsageError for a pair of which one has no surface.
+/// Computes the factors by `error`, `aim`, `rays`, seed, threads and time of the settings. With
+/// `largest` it does so again where the largest factor of a row is smaller than was thought. After
+/// an interrupt, factors are as exact as they are then; there are no rows if it came before any was
+/// known. Throws UsageError for a pair of which one has no surface.
 [[nodiscard]] ViewFactors compute_factors(const ViewFactorSettings& settings,
                                           const FactorScene& scene, Monitor& monitor);
+
+/// Computes the rows of points by `error`, `rays`, seed and threads of the settings; an interrupt
+/// leaves rows unknown.
+[[nodiscard]] std::vector<PointFactors> compute_points(const ViewFactorSettings& settings,
+                                                       const FactorScene& scene,
+                                                       std::span<const FactorPoint> points,
+                                                       Monitor& monitor);
 
 } // namespace hemilux

@@ -2,6 +2,7 @@
 // The settings of `hemilux viewfactors`, once the command line has been read.
 
 #include "app/settings/settings.h"
+#include "geometry/vector.h"
 
 #include <cstdint>
 #include <optional>
@@ -21,6 +22,11 @@ struct FactorAim {
     std::string from, to; ///< of `pair`: names of surfaces
 };
 
+/// How the sky is divided into columns.
+struct SkyDivision {
+    unsigned steps = 0; ///< of altitude; 0: the patches of Tregenza
+};
+
 struct ViewFactorSettings {
     SceneSettings scene;
     SolveOptions options; ///< seed, threads
@@ -29,7 +35,13 @@ struct ViewFactorSettings {
     FactorAim aim;                    ///< what it is of
     std::uint32_t rays = 1024;        ///< from each patch, to find who sees whom; a power of two
     bool sky = false, ground = false; ///< they are columns
-    std::optional<int> up;            ///< axis; empty: 1 for glTF, else 2
+    std::optional<double> seconds; ///< after which factors are as exact as they are then
+    std::optional<SkyDivision> sky_bands;
+    std::optional<int> up;   ///< axis; empty: 1 for glTF, else 2
+    std::string points;      ///< file of further rows; empty: none
+    std::optional<Vec3> sun; ///< unit vector to it
+    std::string suns;        ///< file of more of them; empty: none
+    std::string sunlit;      ///< path of the table of sunlit fractions; empty: none
     std::vector<std::string> outputs;
     std::string legend; ///< path; empty: none
     Provenance from;    ///< provenance of the files

@@ -50,11 +50,11 @@ void write_factor_table(const std::string& path, const SparseMatrix& matrix,
 }
 
 void write_npy(const std::string& path, const SparseMatrix& matrix,
-               const std::atomic<bool>* interrupted) {
+               const std::atomic<bool>* interrupted, std::optional<std::size_t> columns) {
     AtomicFile file(path);
-    const std::string n = std::to_string(matrix.rows());
-    file.write(npy_header("<f8", n + ", " + n));
-    std::vector<double> row(matrix.rows());
+    std::vector<double> row(columns.value_or(matrix.rows()));
+    file.write(
+        npy_header("<f8", std::to_string(matrix.rows()) + ", " + std::to_string(row.size())));
     std::string bytes;
     for (std::size_t i = 0; i < matrix.rows(); ++i) {
         if (interrupted && *interrupted)

@@ -4,6 +4,8 @@
 #include "radiosity/engine/sparse/sparse_matrix.h"
 
 #include <atomic>
+#include <cstddef>
+#include <optional>
 #include <string>
 
 namespace hemilux {
@@ -18,9 +20,10 @@ void write_factor_table(const std::string& path, const SparseMatrix& matrix,
 /// bytes.
 [[nodiscard]] std::string npy_header(const std::string& type, const std::string& shape);
 
-/// Writes a square matrix as a dense NumPy array: float64, little endian, C order. Entries that are
-/// not stored are 0. Throws OutputError.
+/// Writes a matrix as a dense NumPy array: float64, little endian, C order. Entries that are not
+/// stored are 0. Without `columns` it is square. Throws OutputError.
 void write_npy(const std::string& path, const SparseMatrix& matrix,
-               const std::atomic<bool>* interrupted = nullptr);
+               const std::atomic<bool>* interrupted = nullptr,
+               std::optional<std::size_t> columns = {});
 
 } // namespace hemilux

@@ -47,11 +47,14 @@ bool is_header(std::string_view row) {
     return true;
 }
 
-NamedPoint point_from(const std::string& path, std::size_t line, std::string_view row) {
+/// Reads a row of `count` numbers, which `form` describes.
+template <std::size_t count>
+std::array<double, count> numbers_from(const std::string& path, std::size_t line,
+                                       std::string_view row, const std::string& form) {
     const auto refuse = [&](const std::string& found) {
-        throw InputError(path, line, "expected six numbers x,y,z,nx,ny,nz, " + found);
+        throw InputError(path, line, "expected " + form + ", " + found);
     };
-    std::array<double, 6> numbers{};
+    std::array<double, count> numbers{};
     for (double& number : numbers) {
         const std::string_view field = next_field(row);
         const std::optional<double> value = parse_decimal(field);
@@ -61,11 +64,48 @@ NamedPoint point_from(const std::string& path, std::size_t line, std::string_vie
     }
     if (!row.empty())
         refuse("then " + found_instead(row));
-    const auto& [x, y, z, nx, ny, nz] = numbers;
+    return numbers;
+}
+
+NamedPoint point_from(const std::string& path, std::size_t line, std::string_view row) {
+    const auto [x, y, z, nx, ny, nz] =
+        numbers_from<6>(path, line, row, "six numbers x,y,z,nx,ny,nz");
     const Vec3 normal(nx, ny, nz);
     if (normal == Vec3(0.0))
         throw InputError(path, line, "expected a normal nx,ny,nz that is not 0,0,0");
     return {{x, y, z}, normal, direction_of(normal), line};
+}
+
+Vec3 towards(const std::string& path, std::size_t line, std::string_view row) {
+    const auto [x, y, z] = numbers_from<3>(path, line, row, "three numbers x,y,z");
+    const Vec3 direction(x, y, z);
+    if (direction == Vec3(0.0))
+        throw InputError(path, line, "expected a direction x,y,z that is not 0,0,0");
+    return direction_of(direction);
+}
+
+/// Reads all rows of a file by from_row(path, line, row).
+template <class Row, class FromRow>
+std::vector<Row> read_rows(const std::string& path, const FromRow& from_row) {
+    const std::string content = read_text_file(path, InputKind::stream);
+    const auto count = static_cast<std::size_t>(std::ranges::count(content, '\n')) + 1;
+    ask_for_input(path, static_cast<double>(content.size() + count * sizeof(Row)));
+    std::vector<Row> rows;
+    rows.reserve(count);
+    bool first = true;
+    std::size_t line = 0;
+    for (std::string_view left = content; !left.empty();) {
+        const std::size_t size = std::min(left.find_first_of("\r\n"), left.size());
+        const std::string_view whole = left.substr(0, size);
+        const std::string_view row = trimmed(whole.substr(0, whole.find('#')));
+        left.remove_prefix(size);
+        left.remove_prefix(left.starts_with("\r\n") ? 2 : left.empty() ? 0 : 1);
+        ++line;
+        if (row.empty() || (std::exchange(first, false) && is_header(row)))
+            continue;
+        rows.push_back(from_row(path, line, row));
+    }
+    return rows;
 }
 
 /// Appends the row of a point; its light is empty where there is none.
@@ -95,27 +135,17 @@ void append_row(const Mesh& mesh, std::uint64_t number, const NamedPoint& point,
 } // namespace
 
 std::vector<NamedPoint> read_points(const std::string& path) {
-    const std::string content = read_text_file(path, InputKind::stream);
-    const auto rows = static_cast<std::size_t>(std::ranges::count(content, '\n')) + 1;
-    ask_for_input(path, static_cast<double>(content.size() + rows * sizeof(NamedPoint)));
-    std::vector<NamedPoint> points;
-    points.reserve(rows);
-    bool first = true;
-    std::size_t line = 0;
-    for (std::string_view left = content; !left.empty();) {
-        const std::size_t size = std::min(left.find_first_of("\r\n"), left.size());
-        const std::string_view whole = left.substr(0, size);
-        const std::string_view row = trimmed(whole.substr(0, whole.find('#')));
-        left.remove_prefix(size);
-        left.remove_prefix(left.starts_with("\r\n") ? 2 : left.empty() ? 0 : 1);
-        ++line;
-        if (row.empty() || (std::exchange(first, false) && is_header(row)))
-            continue;
-        points.push_back(point_from(path, line, row));
-    }
+    std::vector<NamedPoint> points = read_rows<NamedPoint>(path, point_from);
     if (points.empty())
         throw InputError(path, "there is no point; expected rows x,y,z,nx,ny,nz");
     return points;
+}
+
+std::vector<Vec3> read_directions(const std::string& path) {
+    std::vector<Vec3> directions = read_rows<Vec3>(path, towards);
+    if (directions.empty())
+        throw InputError(path, "there is no direction; expected rows x,y,z");
+    return directions;
 }
 
 void write_points_table(const std::string& path, const Mesh& mesh,

@@ -28,6 +28,10 @@ struct NamedPoint {
 /// line for any other row, for a normal without a direction and for a file without points.
 [[nodiscard]] std::vector<NamedPoint> read_points(const std::string& path);
 
+/// Reads rows of three numbers x,y,z in the same way, as directions that are not 0,0,0; returns
+/// unit vectors.
+[[nodiscard]] std::vector<Vec3> read_directions(const std::string& path);
+
 /// Writes one row per point: its number from 0, and its position and normal as they were read. Then
 /// follow the irradiance, the radiosity of the face that the point lies on, and the standard error
 /// of the irradiance [W/m2], and `more`; these are empty beyond the lights. Throws OutputError.

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <iterator>
 
 namespace hemilux {
 namespace {
@@ -19,34 +20,57 @@ void check_interrupt(const FactorTable& table) {
         throw Interrupted();
 }
 
+/// Calls use(i, j, F, standard error) for what is open of a row, where it is a column.
+template <class Use>
+void for_open(const FactorTable& table, std::uint32_t i, const std::array<OpenShare, opens>& shares,
+              std::span<const OpenShare> bands, const Use& use) {
+    auto column = static_cast<std::uint32_t>(table.surfaces.size());
+    const auto add = [&](const OpenShare& open) {
+        if (open.factor > 0)
+            use(i, column, open.factor, open.standard_error);
+        ++column;
+    };
+    for (const Open open : table.columns)
+        if (open == Open::sky && table.bands)
+            std::ranges::for_each(bands, add);
+        else
+            add(shares[static_cast<std::size_t>(open)]);
+}
+
 /// Calls use(i, j, F, standard error) for the entries of a row, those of what is open at its end.
 template <class Use>
 void for_row(const FactorTable& table, std::uint32_t i, const Use& use) {
     const ViewFactors& factors = table.factors;
-    for (std::size_t k = factors.row_begin[i]; k < factors.row_begin[i + 1]; ++k)
-        if (factors.factor[k] > 0)
-            use(i, factors.column[k], factors.factor[k], factors.standard_error[k]);
-    for (std::size_t k = 0; k < table.columns.size(); ++k) {
-        const OpenShare& open = factors.open[i][static_cast<std::size_t>(table.columns[k])];
-        if (open.factor > 0)
-            use(i, static_cast<std::uint32_t>(factors.rows() + k), open.factor,
-                open.standard_error);
+    if (i < factors.rows()) {
+        for (std::size_t k = factors.row_begin[i]; k < factors.row_begin[i + 1]; ++k)
+            if (factors.factor[k] > 0)
+                use(i, factors.column[k], factors.factor[k], factors.standard_error[k]);
+        for_open(table, i, factors.open[i], factors.bands_of(i), use);
+    } else if (const std::size_t size = table.size(); i >= size) {
+        const PointFactors& point = table.points[i - size];
+        for (std::size_t k = 0; k < point.factor.size(); ++k)
+            if (point.factor[k] > 0)
+                use(i, point.column[k], point.factor[k], point.standard_error[k]);
+        for_open(table, i, point.open, point.bands, use);
     }
 }
 
 /// Returns at least the number of entries of all rows.
 std::size_t entries_of(const FactorTable& table) {
-    return table.factors.factor.size() + table.columns.size() * table.factors.rows();
+    std::size_t entries =
+        table.factors.factor.size() + (table.size() - table.surfaces.size()) * table.rows();
+    for (const PointFactors& point : table.points)
+        entries += point.factor.size();
+    return entries;
+}
+
+std::uint32_t row_count(const FactorTable& table) {
+    return static_cast<std::uint32_t>(table.rows());
 }
 
 void add(std::string& line, double value) {
     line += ',';
     csv::append_number(line, value);
-}
-
-void add(std::string& line, const std::string& text) {
-    line += ',';
-    csv::append_text(line, text);
 }
 
 template <class Values>
@@ -84,11 +108,22 @@ const char* name_of(Open open) {
     return names[static_cast<std::size_t>(open)];
 }
 
+std::vector<std::string> FactorTable::column_names() const {
+    std::vector<std::string> names;
+    for (const Open open : columns)
+        if (open == Open::sky && bands)
+            for (std::size_t k = 0; k < bands->size(); ++k)
+                names.push_back(bands->name(k));
+        else
+            names.emplace_back(name_of(open));
+    return names;
+}
+
 void write_factor_pairs(const std::string& path, const FactorTable& table) {
     AtomicFile file(path);
     file.write("i,j,F,standard_error\n");
     std::string line;
-    for (std::uint32_t i = 0; i < table.factors.rows(); ++i) {
+    for (std::uint32_t i = 0, rows = row_count(table); i < rows; ++i) {
         check_interrupt(table);
         for_row(table, i,
                 [&](std::uint32_t row, std::uint32_t column, double factor, double error) {
@@ -104,46 +139,7 @@ void write_factor_pairs(const std::string& path, const FactorTable& table) {
     file.commit();
 }
 
-void write_factor_legend(const std::string& path, const FactorTable& table) {
-    AtomicFile file(path);
-    std::string header = "surface,name,face,side,material,group,area,x,y,z,nx,ny,nz";
-    for (std::size_t k = 0; k < opens; ++k) {
-        const std::string name = name_of(static_cast<Open>(k));
-        header += "," + name + "," + name + "_standard_error";
-    }
-    file.write(header + ",row_sum,unlisted_bound\n");
-    for (std::uint32_t i = 0; i < table.factors.rows(); ++i) {
-        const FactorSurface& surface = table.surfaces[i];
-        std::string line;
-        csv::append_number(line, std::uint64_t{i});
-        add(line, surface.name);
-        line += "," + surface.face;
-        add(line, surface.side);
-        add(line, surface.material);
-        add(line, surface.group);
-        add(line, surface.area);
-        csv::append_fields(line, surface.centre);
-        csv::append_fields(line, surface.normal);
-        for (const OpenShare& open : table.factors.open[i]) {
-            add(line, open.factor);
-            add(line, open.standard_error);
-        }
-        if (table.has_pairs) {
-            add(line, table.factors.row_sum(i));
-            add(line, table.factors.unlisted_bound[i]);
-        } else {
-            line += ",,";
-        }
-        file.write(line + '\n');
-    }
-    for (std::size_t k = 0; k < table.columns.size(); ++k)
-        file.write(std::to_string(table.factors.rows() + k) + "," + name_of(table.columns[k]) +
-                   std::string(19, ',') + "\n");
-    file.commit();
-}
-
 void write_factor_npz(const std::string& path, const FactorTable& table, const Provenance& from) {
-    const std::uint64_t rows = table.size();
     std::vector<std::uint64_t> begin(1, 0);
     std::vector<std::uint32_t> column;
     std::vector<double> factor, error;
@@ -151,7 +147,7 @@ void write_factor_npz(const std::string& path, const FactorTable& table, const P
     column.reserve(most);
     factor.reserve(most);
     error.reserve(most);
-    for (std::uint32_t i = 0; i < table.factors.rows(); ++i) {
+    for (std::uint32_t i = 0, rows = row_count(table); i < rows; ++i) {
         for_row(table, i, [&](std::uint32_t, std::uint32_t j, double f, double e) {
             column.push_back(j);
             factor.push_back(f);
@@ -159,7 +155,6 @@ void write_factor_npz(const std::string& path, const FactorTable& table, const P
         });
         begin.push_back(column.size());
     }
-    begin.resize(rows + 1, column.size());
     check_interrupt(table);
     StoredZip zip(path);
     constexpr std::uint64_t largest = 0x7fffffff;
@@ -174,7 +169,7 @@ void write_factor_npz(const std::string& path, const FactorTable& table, const P
         add_array(zip, "indptr", "<i8", begin);
     }
     add_text(zip, "format", "csr");
-    add_array(zip, "shape", "<i8", std::array{rows, rows});
+    add_array(zip, "shape", "<i8", std::array<std::uint64_t, 2>{table.rows(), table.size()});
     add_array(zip, "data", "<f8", factor);
     add_array(zip, "standard_error", "<f8", error);
     std::vector<double> area;
@@ -183,8 +178,9 @@ void write_factor_npz(const std::string& path, const FactorTable& table, const P
         area.push_back(surface.area);
         names.push_back(surface.name);
     }
-    for (const Open open : table.columns)
-        names.emplace_back(name_of(open));
+    std::ranges::copy(table.column_names(), std::back_inserter(names));
+    for (const FactorPlace& place : table.places)
+        names.push_back(place.name);
     add_array(zip, "area", "<f8", area);
     add_texts(zip, "name", names);
     add_text(zip, "seed", std::to_string(from.seed));
@@ -227,15 +223,14 @@ void write_dense_factors(const std::string& path, const FactorTable& table) {
     matrix.column.reserve(entries_of(table));
     matrix.value.reserve(entries_of(table));
     matrix.row_begin.push_back(0);
-    for (std::uint32_t i = 0; i < table.size(); ++i) {
-        if (i < table.factors.rows())
-            for_row(table, i, [&](std::uint32_t, std::uint32_t j, double factor, double) {
-                matrix.column.push_back(j);
-                matrix.value.push_back(factor);
-            });
+    for (std::uint32_t i = 0, rows = row_count(table); i < rows; ++i) {
+        for_row(table, i, [&](std::uint32_t, std::uint32_t j, double factor, double) {
+            matrix.column.push_back(j);
+            matrix.value.push_back(factor);
+        });
         matrix.row_begin.push_back(matrix.column.size());
     }
-    write_npy(path, matrix, table.interrupted);
+    write_npy(path, matrix, table.interrupted, table.size());
 }
 
 } // namespace hemilux

@@ -1,8 +1,10 @@
 #pragma once
-// View factors as files: a table of pairs, a legend of surfaces, a sparse matrix for SciPy, and the
-// input of uDALES.
+// View factors as files: a table of pairs, a sparse matrix for SciPy, and the input of uDALES.
+// Their legend is in view_factor_legend.h.
 
 #include "io/files/provenance.h"
+#include "radiosity/engine/point_views/point_factors.h"
+#include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/engine/view_factors/view_factors.h"
 
 #include <cstdint>
@@ -21,15 +23,28 @@ struct FactorSurface {
     Vec3 normal{0.0};                        ///< mean, unit; 0 where the sides cancel
 };
 
+/// A point that has a row, as the user knows it.
+struct FactorPlace {
+    std::string name;
+    Vec3 position, normal; ///< as in the file [m], [-]
+};
+
 /// All that the files are made of.
 struct FactorTable {
     const ViewFactors& factors;
     std::span<const FactorSurface> surfaces; ///< by row
     std::vector<Open> columns;               ///< of what is open, those that are columns too
     const std::atomic<bool>* interrupted = nullptr;
-    bool has_pairs = true; ///< false: only what is open was computed
+    bool has_pairs = true;                     ///< false: only what is open was computed
+    std::span<const PointFactors> points = {}; ///< further rows, which have no columns
+    std::span<const FactorPlace> places = {};  ///< by point
+    const SkyBands* bands = nullptr; ///< parts of the sky; where it is a column, they are instead
 
-    [[nodiscard]] std::size_t size() const { return surfaces.size() + columns.size(); }
+    /// Returns the number of columns, which are rows too: points follow them.
+    [[nodiscard]] std::size_t size() const { return surfaces.size() + column_names().size(); }
+    /// Returns the names of the columns that follow the surfaces.
+    [[nodiscard]] std::vector<std::string> column_names() const;
+    [[nodiscard]] std::size_t rows() const { return size() + points.size(); }
 };
 
 /// Returns "sky", "ground" or "back".
@@ -39,16 +54,10 @@ struct FactorTable {
 /// follows them in the order of the columns. Throws OutputError, as all functions do.
 void write_factor_pairs(const std::string& path, const FactorTable& table);
 
-/// Writes a row per surface: `surface,name,face,side,material,group,area,x,y,z,nx,ny,nz`, then the
-/// factors to sky, ground and backs each with its standard error, the sum of the row and a bound
-/// for what it does not list. Columns of the matrix that stand for sky and ground follow as rows
-/// with their names.
-void write_factor_legend(const std::string& path, const FactorTable& table);
-
 /// Writes an archive that scipy.sparse.load_npz reads as a CSR matrix, float64, with int32 indices
 /// or int64 ones where these do not suffice. Further arrays are `standard_error` (in the order of
-/// `data`), `area` [m2], `name`, `seed` and `command`. Sky and ground add rows without entries, so
-/// that it stays square.
+/// `data`), `area` [m2] of the surfaces, `name` of all rows, `seed` and `command`. Sky and ground
+/// add rows without entries, so that it is square but for the rows of points.
 void write_factor_npz(const std::string& path, const FactorTable& table, const Provenance& from);
 
 /// Writes vfsparse.inp of uDALES: `i j F`, from 1, with eight decimals, without what rounds to 0.
@@ -56,7 +65,7 @@ void write_udales_factors(const std::string& path, const FactorTable& table);
 /// Writes svf.inp of uDALES: a line of text, then the factor to the sky of each surface.
 void write_udales_sky(const std::string& path, const FactorTable& table);
 
-/// Writes the whole matrix as a dense NumPy array.
+/// Writes the whole matrix as a dense NumPy array, with the rows of points below.
 void write_dense_factors(const std::string& path, const FactorTable& table);
 
 } // namespace hemilux

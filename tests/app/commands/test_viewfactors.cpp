@@ -1,11 +1,15 @@
 // What `hemilux viewfactors` writes and says.
 #include "app/check_fails.h"
+#include "app/running.h"
 #include "support/catch.h"
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cmath>
 #include <map>
 #include <sstream>
+#include <thread>
 #include <vector>
 
 using Catch::Contains;
@@ -71,6 +75,31 @@ f 3 10 11 5
 f 5 11 4
 f 4 11 8 1
 )";
+
+/// n x n blocks of different heights, each on a square of ground of its own: 6 n^2 faces.
+std::string city(int n) {
+    std::ostringstream text;
+    int corners = 0;
+    const auto quad = [&](const std::array<std::array<double, 3>, 4>& corner) {
+        for (const auto& [x, y, z] : corner)
+            text << "v " << x << ' ' << y << ' ' << z << '\n';
+        text << "f " << corners + 1 << ' ' << corners + 2 << ' ' << corners + 3 << ' '
+             << corners + 4 << '\n';
+        corners += 4;
+    };
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < n; ++k) {
+            const double x = 20. * i, y = 20. * k, a = x + 4, b = x + 16, c = y + 4, d = y + 14,
+                         h = 5 + (7 * i + 5 * k) % 16;
+            quad({{{x, y, 0}, {x + 20, y, 0}, {x + 20, y + 20, 0}, {x, y + 20, 0}}});
+            quad({{{a, c, h}, {b, c, h}, {b, d, h}, {a, d, h}}});
+            quad({{{a, c, 0}, {b, c, 0}, {b, c, h}, {a, c, h}}});
+            quad({{{b, c, 0}, {b, d, 0}, {b, d, h}, {b, c, h}}});
+            quad({{{b, d, 0}, {a, d, 0}, {a, d, h}, {b, d, h}}});
+            quad({{{a, d, 0}, {a, c, 0}, {a, c, h}, {a, d, h}}});
+        }
+    return text.str();
+}
 
 } // namespace
 
@@ -191,6 +220,170 @@ TEST_CASE("viewfactors of the sky alone computes no other factors") {
     CHECK(std::stod(legend[1][14]) < .005 * .2);
     CHECK(legend[1][19].empty()); // the sum of the row is not known
     test::check_fails(place, 1, "viewfactors box.obj --of sky -o a.csv", "svf.inp... or .vtu");
+}
+
+TEST_CASE("viewfactors --points adds rows that are exact and sum to 1") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    place.write("points.txt", "x,y,z,nx,ny,nz\n.5,.5,0,0,0,1 # on the floor\n.5 .5 .5 0 2 0\n");
+    const auto outcome = place.hemilux("viewfactors box.obj --by group --sky --points points.txt "
+                                       "-o f.csv -o f.npz -o f.npy --legend s.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("2 points: 3 of 3 factors exact"));
+    const auto factors = factors_of(place.read("f.csv"));
+    // Rows are floor, walls, sky and the points. From the middle of the floor a square at the
+    // height 1 has the factor 2 / pi sqrt(.2) atan(sqrt(.2)) times 2 (Howell's catalogue, B-3).
+    CHECK(factors.at({3, 2}) ==
+          Approx(4 / 3.14159265358979 * std::sqrt(.2) * std::atan(std::sqrt(.2))));
+    CHECK(factors.at({3, 1}) == Approx(1 - factors.at({3, 2})));
+    CHECK(sum_of_row(factors, 4) == Approx(1).margin(1e-12));
+    CHECK(factors.at({4, 0}) == Approx(factors.at({4, 2}))); // as high above as below
+    const auto legend = rows_of(place.read("s.csv"));
+    REQUIRE(legend.size() == 1 + 5);
+    CHECK(legend[4][1] == "point 0");
+    CHECK(legend[5][0] == "4");
+    CHECK(legend[5][11] == "2"); // the normal as it was given
+    CHECK(std::stod(legend[5][13]) == Approx(factors.at({4, 2})));
+    CHECK(legend[4].size() == legend[0].size());
+    CHECK(place.read("f.npy").size() == 128 + 5 * 3 * 8);
+    CHECK_THAT(place.read("f.npy"), Contains("'shape': (5, 3)"));
+    CHECK_THAT(place.read("f.npz"), Contains("point 1"));
+    const auto fails = [&](const std::string& points, const std::string& message) {
+        place.write("bad.txt", points);
+        test::check_fails(place, 2, "viewfactors box.obj --points bad.txt -o g.csv", message);
+    };
+    fails("1 2 3\n", "bad.txt:1: expected six numbers");
+    fails("0 0 0 0 0 1\n0 0 0 0 0 0\n", "bad.txt:2: expected a normal");
+    fails("0 0 1e9 0 0 1\n", "bad.txt:1: expected a point near the scene");
+    test::check_fails(place, 2, "viewfactors box.obj --points none.txt -o g.csv", "none.txt");
+    test::check_fails(place, 1,
+                      "viewfactors box.obj --points points.txt -o ./points.csv "
+                      "--legend points.csv",
+                      "named twice");
+}
+
+TEST_CASE("viewfactors --sky-bands divides the column of the sky") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    place.write("points.txt", ".5,.5,0,0,0,1\n");
+    for (const char* bands : {"6", "tregenza"}) {
+        const std::size_t count = bands[0] == '6' ? 6 : 145;
+        REQUIRE(place
+                    .hemilux("viewfactors box.obj -q --by group --ground --points points.txt "
+                             "--sky-bands " +
+                             std::string(bands) + " -o f.csv -o f.npz --legend s.csv")
+                    .code == 0);
+        const auto factors = factors_of(place.read("f.csv"));
+        const auto legend = rows_of(place.read("s.csv"));
+        REQUIRE(legend.size() == 1 + 2 + count + 1 + 1);
+        for (const auto& row : legend)
+            CHECK(row.size() == 21 + 2 * count);
+        const int ground = 2 + static_cast<int>(count);
+        CHECK(legend[static_cast<std::size_t>(ground) + 1][1] == "ground");
+        for (const std::size_t row : {std::size_t{1}, legend.size() - 1}) {
+            const int i = std::stoi(legend[row][0]);
+            double of_legend = 0, of_matrix = 0;
+            for (std::size_t k = 0; k < count; ++k) {
+                of_legend += std::stod(legend[row][21 + 2 * k]);
+                CHECK(std::stod(legend[row][22 + 2 * k]) > 0);
+            }
+            for (const auto& [pair, factor] : factors)
+                of_matrix += pair[0] == i && pair[1] >= 2 && pair[1] < ground ? factor : 0;
+            CHECK(of_legend == Approx(std::stod(legend[row][13])));
+            CHECK(of_matrix == Approx(of_legend));
+            CHECK(sum_of_row(factors, i) == Approx(1).margin(1e-12));
+        }
+    }
+    CHECK(rows_of(place.read("s.csv"))[3 + 1][1] == "sky 2");
+    REQUIRE(place.hemilux("viewfactors box.obj -q --of sky --sky-bands 3 -o a.vtu --legend t.csv")
+                .code == 0);
+    CHECK_THAT(place.read("t.csv"), Contains(",sky 0-30,sky 0-30 standard error,sky 30-60"));
+    for (const char* bands : {"0", "91", "2.5", "reinhart"})
+        test::check_fails(place, 1,
+                          "viewfactors box.obj -o a.csv --sky-bands " + std::string(bands),
+                          "a whole number from 1 to 90 or tregenza");
+}
+
+TEST_CASE("viewfactors --sunlit writes the sunlit share of surfaces and points for each sun") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    place.write("suns.txt", "x,y,z\n1,0,1 # from the east at 45 degrees\n0 0 -2\n");
+    place.write("points.txt", ".2,.5,0,0,0,1\n.9,.5,0,0,0,1\n");
+    const auto outcome = place.hemilux("viewfactors box.obj --by group --sun 0,0,3 --suns suns.txt "
+                                       "--points points.txt --sunlit s.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err,
+               Contains("3 suns: 6 of 6 sunlit fractions exact") && Contains("wrote s.csv"));
+    // Suns by surfaces 0 and 1 and points 2 and 3. The inside of the walls is 4, of which the west
+    // is in the sun at 45 degrees; the floor is in the shade of the east.
+    CHECK(place.read("s.csv") == "sun,surface,sunlit,standard_error\n"
+                                 "0,0,1,0\n0,1,0,0\n0,2,1,0\n0,3,1,0\n"
+                                 "1,0,0,0\n1,1,0.25,0\n1,2,0,0\n1,3,0,0\n"
+                                 "2,0,0,0\n2,1,0,0\n2,2,0,0\n2,3,0,0\n");
+    REQUIRE(place
+                .hemilux("viewfactors box.obj -q --by group --sky --sun 1,0,2 --points points.txt "
+                         "--sunlit t.csv -o f.csv --legend l.csv")
+                .code == 0);
+    // Half of the floor; points follow the sky in the legend.
+    CHECK_THAT(place.read("t.csv"), Contains("\n0,0,0.5,0\n") && Contains("\n0,3,1,0\n0,4,0,0\n"));
+    CHECK(rows_of(place.read("l.csv"))[4][0] == "3");
+    const auto fails = [&](int code, const std::string& arguments, const std::string& message) {
+        test::check_fails(place, code, "viewfactors box.obj " + arguments, message);
+    };
+    fails(1, "--sunlit s.csv", "name the sun by --sun or --suns");
+    fails(1, "--sun 0,0,1 -o a.csv", "are for --sunlit FILE.csv");
+    fails(1, "--sun 0,0,0 --sunlit a.csv", "three numbers X,Y,Z that are not all 0");
+    fails(1, "--sun 0,0,1 --sunlit a.txt", ".csv");
+    place.write("suns.txt", "1 0 1\n0 0 0\n");
+    fails(2, "--suns suns.txt --sunlit a.csv", "suns.txt:2: expected a direction x,y,z");
+    place.write("suns.txt", "1 0 1 0\n");
+    fails(2, "--suns suns.txt --sunlit a.csv", "suns.txt:1: expected three numbers x,y,z, then");
+}
+
+TEST_CASE("viewfactors --time writes what is known when the time is over, with its error") {
+    const Workplace place;
+    place.write("city.obj", city(6));
+    const auto outcome =
+        place.hemilux("viewfactors city.obj --error .1% --time .01 --sky -o f.csv --legend l.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("the run was ended: ") &&
+                                Contains("where 0.1 % was asked for; the run was ended before"));
+    const auto legend = rows_of(place.read("l.csv"));
+    for (std::size_t row = 1; row <= 216; ++row)
+        CHECK(std::stod(legend[row][19]) == Approx(1).margin(1e-9));
+    REQUIRE(place.hemilux("viewfactors city.obj -q --error 10% --time 1h -o a.csv").code == 0);
+    REQUIRE(place
+                .hemilux("viewfactors city.obj -q --error .1% --of sky --time .01 -o s.vtu "
+                         "--sun 1,1,1 --sunlit s.csv")
+                .code == 0);
+    CHECK(rows_of(place.read("s.csv")).size() == 1 + 216); // all of it
+    test::check_fails(place, 1, "viewfactors city.obj --time 0 -o b.csv", "--time");
+}
+
+TEST_CASE("viewfactors writes what is known after Ctrl-C") {
+    const Workplace place;
+    place.write("city.obj", city(18));
+    std::string said;
+    for (double seconds = 1; seconds <= 64; seconds *= 2) { // the first rays take that long
+        test::Running run(place,
+                          "viewfactors city.obj --error .01% -o f.csv --legend l.csv --sun 0,0,1 "
+                          "--sunlit s.csv",
+                          place.path("stderr.txt").c_str());
+        std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+        run.interrupt();
+        CHECK(run.wait() == 130);
+        said = place.read("stderr.txt");
+        if (said.find("nothing was written") == std::string::npos && !said.empty())
+            break;
+    }
+    for (const char* text : {"the run was ended: ", "wrote f.csv", "wrote l.csv", "left out s.csv"})
+        CHECK_THAT(said, Contains(text));
+    const auto factors = factors_of(place.read("f.csv"));
+    const auto legend = rows_of(place.read("l.csv"));
+    REQUIRE(legend.size() == 1 + 18 * 18 * 6);
+    for (std::size_t row = 1; row < legend.size(); row += 100)
+        CHECK(std::stod(legend[row][19]) == Approx(1).margin(1e-9));
+    CHECK_FALSE(place.has("s.csv"));
 }
 
 TEST_CASE("viewfactors says what is wrong with what it is asked") {

@@ -32,7 +32,7 @@ class Rows {
             }
         for (std::size_t i = 0; i < list.area.size(); ++i)
             for (const OpenShare& open : list.open[i]) {
-                const double deviation = open.standard_error * list.area[i];
+                const double deviation = open.factor > 0 ? open.standard_error * list.area[i] : 0;
                 open_variance_.push_back(deviation * deviation);
             }
         find_lacking();
@@ -240,6 +240,12 @@ ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
         last = negative == 0 ? worst : 1;
     }
     audit.left_worst = rows.worst_lacking();
+    // The rest of a row says of one pair in it what is left of the row's sum, with the variance of
+    // the rest. What is not listed is a part of that.
+    const auto rest_of = [&](std::size_t i, double variance) {
+        const double unlisted = list.unlisted[i] * list.area[i];
+        return std::max(first_diagonal[i] - variance, 0.0) + unlisted * unlisted;
+    };
     // The variance after a change that makes use of a row's sum is smaller by about the part that
     // the row's own uncertainty has in it.
     const auto remaining = [](double variance, double parts) {
@@ -247,14 +253,22 @@ ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
     };
     for (std::size_t i = 0; i < list.area.size(); ++i) {
         const double own = first_diagonal[i];
-        for (std::size_t k = 0; k < opens; ++k) {
+        double unfound = 0;
+        const auto prior = [&](std::size_t k) {
             const double deviation = before.open[i][k].standard_error * list.area[i];
-            const double variance = deviation * deviation;
+            return deviation * deviation;
+        };
+        for (std::size_t k = 0; k < opens; ++k)
+            unfound += before.open[i][k].factor > 0 ? 0 : prior(k);
+        for (std::size_t k = 0; k < opens; ++k) {
+            // An opening that no ray found cannot be larger than the rest of the row is uncertain.
+            const double variance = prior(k);
+            const double all = own + (before.open[i][k].factor > 0 ? unfound : variance);
             // What is not listed went to where the row is least certain.
             if (variance > 0)
                 list.open[i][k].standard_error =
-                    elementary::hypot(remaining(variance, variance / own) / list.area[i],
-                                      variance / own * list.unlisted[i]);
+                    elementary::hypot(remaining(variance, variance / all) / list.area[i],
+                                      variance / all * list.unlisted[i]);
         }
         for (std::size_t k = 0; k < list.pairs[i].size(); ++k) {
             PairExchange& pair = list.pairs[i][k];
@@ -266,8 +280,8 @@ ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
             }
             const double variance = double(pair.deviation) * double(pair.deviation);
             audit.largest_move = std::max(audit.largest_move, moved / double(pair.deviation));
-            pair.deviation = static_cast<float>(
-                remaining(variance, variance / own + variance / first_diagonal[pair.to]));
+            pair.deviation = static_cast<float>(std::sqrt(
+                1 / (1 / variance + 1 / rest_of(i, variance) + 1 / rest_of(pair.to, variance))));
         }
     }
     return audit;

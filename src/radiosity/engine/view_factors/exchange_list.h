@@ -2,7 +2,7 @@
 // Which patches exchange light with which, how much, and how well that is known: half of a
 // symmetric matrix, without what is 0.
 
-#include "radiosity/engine/view_factors/row_rays.h"
+#include "radiosity/engine/view_factors/open_share.h"
 
 #include <array>
 #include <cstdint>
@@ -22,6 +22,7 @@ struct ExchangeList {
     std::vector<double> area;
     std::vector<std::vector<PairExchange>> pairs; ///< those of higher index, ascending
     std::vector<std::array<OpenShare, opens>> open;
+    std::vector<OpenShare> bands; ///< of the sky, by patch and band; empty: none are asked for
     /// The sum of the row's factors that are not listed [-]: as expected, and a bound for 95 % of
     /// all rows.
     std::vector<double> unlisted, unlisted_bound;

@@ -4,6 +4,8 @@
 #include "radiosity/engine/view_factors/line_samples.h"
 #include "radiosity/engine/view_factors/pair_hull.h"
 #include "radiosity/engine/view_factors/pair_rays.h"
+#include "radiosity/engine/view_factors/seen_pairs.h"
+#include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
@@ -39,9 +41,10 @@ constexpr unsigned first_cells = 2, max_cells = 10;
 class RowPairs {
   public:
     RowPairs(const Mesh& mesh, const WideBvh& tree, const ExchangeOptions& options,
-             std::span<const FacePlane> faces, std::span<const std::vector<std::uint32_t>> seen)
-        : mesh_(mesh), tree_(tree), options_(options), faces_(faces), seen_(seen), rays_(tree),
-          probes_(tree), is_seen_(faces.size()) {}
+             std::span<const FacePlane> faces, std::span<const std::vector<SeenPair>> seen,
+             double scale)
+        : mesh_(mesh), tree_(tree), options_(options), faces_(faces), seen_(seen), scale_(scale),
+          rays_(tree), probes_(tree), is_seen_(faces.size()) {}
 
     /// Finds the pairs of a patch with those of higher index. `missed` gets for each the exchange
     /// of other pairs like it that were not found, as the chance of finding it says.
@@ -71,14 +74,15 @@ class RowPairs {
     }
     [[nodiscard]] double tolerance(std::uint32_t i, std::uint32_t j, double exchange) const {
         const double smaller = std::min(faces_[i].area, faces_[j].area);
-        return smaller * options_.tolerance(i, j, exchange / smaller);
+        return scale_ * smaller * options_.tolerance(i, j, exchange / smaller);
     }
 
     const Mesh& mesh_;
     const WideBvh& tree_;
     const ExchangeOptions& options_;
     std::span<const FacePlane> faces_;
-    std::span<const std::vector<std::uint32_t>> seen_;
+    std::span<const std::vector<SeenPair>> seen_;
+    double scale_; ///< of tolerances
     PairRays rays_, probes_;
     std::vector<bool> is_seen_; ///< by patch, of the row
     std::vector<Candidate> candidates_, unseen_;
@@ -111,8 +115,8 @@ double RowPairs::missed_chance(std::uint32_t i, const Candidate& pair, double ex
 void RowPairs::look_for(std::uint32_t i) {
     candidates_.clear();
     unseen_.clear();
-    for (const std::uint32_t j : seen_[i])
-        is_seen_[j] = true;
+    for (const SeenPair& pair : seen_[i])
+        is_seen_[pair.to] = true;
     const FacePlane& face = faces_[i];
     for (std::uint32_t j = i + 1; j < faces_.size(); ++j) {
         const bool seen = is_seen_[j];
@@ -123,8 +127,8 @@ void RowPairs::look_for(std::uint32_t i) {
         if (facing != Facing::never)
             (seen ? candidates_ : unseen_).push_back({j, facing, rough});
     }
-    for (const std::uint32_t j : seen_[i])
-        is_seen_[j] = false;
+    for (const SeenPair& pair : seen_[i])
+        is_seen_[pair.to] = false;
 }
 
 /// Adds those of the unseen that a few rays see after all.
@@ -281,21 +285,6 @@ void find_unlisted(ExchangeList& list, const std::vector<std::vector<float>>& mi
         list.unlisted_bound.push_back(2 * expected + 3.0 / rays);
 }
 
-/// Makes lists of what each patch saw lists of those of higher index that it saw or was seen by.
-void keep_higher(std::vector<std::vector<std::uint32_t>>& seen) {
-    std::vector<std::vector<std::uint32_t>> higher(seen.size());
-    for (std::uint32_t i = 0; i < seen.size(); ++i) {
-        for (const std::uint32_t j : seen[i])
-            higher[std::min(i, j)].push_back(std::max(i, j));
-        seen[i] = {};
-    }
-    for (std::vector<std::uint32_t>& row : higher) {
-        std::ranges::sort(row);
-        row.erase(std::unique(row.begin(), row.end()), row.end());
-    }
-    seen = std::move(higher);
-}
-
 /// Counts what is found, and asks whether it may be that much.
 class PairsMemory {
   public:
@@ -306,7 +295,7 @@ class PairsMemory {
   private:
     /// A patch that was seen, in two lists, one of which grows; a pair in the list, as terms of
     /// both rows and as factors of both.
-    static constexpr std::uint64_t per_seen = 12, per_pair = 128;
+    static constexpr std::uint64_t per_seen = 24, per_pair = 128;
 
     void add(std::uint64_t bytes) {
         const std::uint64_t sum = bytes_ += bytes;
@@ -355,47 +344,80 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
         list.area.push_back(patch.area);
     }
     list.open.resize(patches);
+    const std::size_t bands = options.bands ? options.bands->size() : 0;
+    list.bands.resize(patches * bands);
     list.pairs.resize(patches);
     PairsMemory memory(options.ask);
-    std::vector<std::vector<std::uint32_t>> seen(patches);
+    std::vector<std::vector<SeenPatch>> seen_patches(patches);
     RowsDone looked(monitor, "finding pairs", patches);
     workers.for_chunks_with(
-        patches, 16, [&] { return RowRays(mesh, tree, options.seed, options.up); },
+        patches, 16, [&] { return RowRays(mesh, tree, options.seed, options.up, options.bands); },
         [&](RowRays& rays, std::size_t begin, std::size_t end) {
             RowView view;
-            for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
+            for (std::size_t i = begin; i < end && !monitor.interrupted.is_wished(); ++i) {
                 rays.trace(static_cast<std::uint32_t>(i), options.rays, view);
-                seen[i].assign(view.seen.begin(), view.seen.end());
+                seen_patches[i].assign(view.seen.begin(), view.seen.end());
                 memory.add_seen(view.seen.size());
                 list.open[i] = view.open;
+                std::ranges::copy(view.bands,
+                                  list.bands.begin() + static_cast<std::ptrdiff_t>(i * bands));
             }
             monitor.rays += (end - begin) * options.rays;
             looked.add(end - begin);
         });
-    keep_higher(seen);
+    found.is_void = monitor.interrupted.is_wished();
+    if (found.is_void)
+        return found;
+    const std::vector<std::vector<SeenPair>> seen = pairs_of(std::move(seen_patches));
     std::vector<std::vector<float>> missed(patches);
     std::mutex mutex;
-    RowsDone measured(monitor, "measuring pairs", patches);
-    workers.for_chunks_with(
-        patches, 4, [&] { return RowPairs(mesh, tree, options, faces, seen); },
-        [&](RowPairs& row, std::size_t begin, std::size_t end) {
-            const ExchangeWork before = row.work();
-            for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
-                row.find(static_cast<std::uint32_t>(i), list.pairs[i], missed[i]);
-                list.pairs[i].shrink_to_fit();
-                memory.add_pairs(list.pairs[i].size());
-            }
-            const ExchangeWork& now = row.work();
-            monitor.rays += now.rays - before.rays;
-            measured.add(end - begin);
-            const std::lock_guard lock(mutex);
-            found.work.rays += now.rays - before.rays;
-            found.work.lines += now.lines - before.lines;
-            found.work.exact_pairs += now.exact_pairs - before.exact_pairs;
-            found.work.line_pairs += now.line_pairs - before.line_pairs;
-            found.work.ray_pairs += now.ray_pairs - before.ray_pairs;
-            found.work.clear_pairs += now.clear_pairs - before.clear_pairs;
-        });
+    const auto measure = [&](double scale) {
+        std::vector<std::uint8_t> is_done(patches, 0);
+        ExchangeWork& work = found.work; // pairs of this pass, rays and lines of all
+        work.exact_pairs = work.line_pairs = work.ray_pairs = work.clear_pairs = 0;
+        RowsDone measured(monitor, "measuring pairs", patches);
+        workers.for_chunks_with(
+            patches, 4, [&] { return RowPairs(mesh, tree, options, faces, seen, scale); },
+            [&](RowPairs& row, std::size_t begin, std::size_t end) {
+                const ExchangeWork before = row.work();
+                for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
+                    const std::size_t known = list.pairs[i].size();
+                    list.pairs[i].clear();
+                    row.find(static_cast<std::uint32_t>(i), list.pairs[i], missed[i]);
+                    list.pairs[i].shrink_to_fit();
+                    memory.add_pairs(std::max(list.pairs[i].size(), known) - known);
+                    is_done[i] = 1;
+                }
+                const ExchangeWork& now = row.work();
+                monitor.rays += now.rays - before.rays;
+                measured.add(end - begin);
+                const std::lock_guard lock(mutex);
+                work.rays += now.rays - before.rays;
+                work.lines += now.lines - before.lines;
+                work.exact_pairs += now.exact_pairs - before.exact_pairs;
+                work.line_pairs += now.line_pairs - before.line_pairs;
+                work.ray_pairs += now.ray_pairs - before.ray_pairs;
+                work.clear_pairs += now.clear_pairs - before.clear_pairs;
+            });
+        return is_done;
+    };
+    std::vector<std::uint8_t> is_known(patches, 0);
+    const auto pass = [&](double scale) {
+        const std::vector<std::uint8_t> is_done = measure(scale);
+        for (std::size_t i = 0; i < patches; ++i)
+            is_known[i] |= is_done[i];
+        return static_cast<std::uint64_t>(
+            std::count(is_done.begin(), is_done.end(), std::uint8_t{0}));
+    };
+    found.work.rows_left = patches;
+    for (const double scale : options.before)
+        if (!monitor.interrupted)
+            pass(scale);
+    if (!monitor.interrupted)
+        found.work.rows_left = pass(1);
+    for (std::uint32_t i = 0; i < patches; ++i)
+        if (is_known[i] == 0)
+            pairs_by_rays(i, faces, seen[i], options.rays, list.pairs[i], missed[i]);
     found.work.rays += patches * options.rays;
     find_unlisted(list, missed, options.rays);
     return found;

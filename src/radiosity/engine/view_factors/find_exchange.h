@@ -20,6 +20,7 @@
 namespace hemilux {
 
 class Mesh;
+class SkyBands;
 struct Monitor;
 
 /// This says which standard error a factor may have. `larger` is the larger of the two factors of a
@@ -35,7 +36,11 @@ struct ExchangeOptions {
     std::uint32_t rays = 1024; ///< from each patch; a power of two, 256 at least
     FactorTolerance tolerance = relative_above(.01, 1e-3);
     std::uint64_t seed = 1;
-    int up = 2; ///< axis that points to the sky
+    int up = 2;                      ///< axis that points to the sky
+    const SkyBands* bands = nullptr; ///< parts of the sky, if they are asked for
+    /// Tolerances of passes over all pairs before that of `tolerance`, as multiples of it: what the
+    /// end of the time leaves of the last pass is as exact as the one before.
+    std::vector<double> before = {};
     /// Is called as rows are found, from all threads, with the bytes that the pairs found so far
     /// will take at the peak of summing and writing them. What it throws ends the work.
     std::function<void(double bytes)> ask = {};
@@ -47,15 +52,21 @@ struct ExchangeWork {
     std::uint64_t exact_pairs = 0, line_pairs = 0, ray_pairs = 0;
     /// Pairs of which neither a certificate nor a line says that something hides a part.
     std::uint64_t clear_pairs = 0;
+    /// Patches whose pairs of higher index are less exact than they should be, as the time was over
+    /// or the run was interrupted.
+    std::uint64_t rows_left = 0;
 };
 
 struct FoundExchange {
     ExchangeList list;
     ExchangeWork work;
+    bool is_void = false;
 };
 
-/// The result is void if the monitor was interrupted. It has the same bytes for any number of
-/// threads. The tree must be that of the mesh.
+/// When the monitor's time ends or it is interrupted, pairs that were not reached keep what the
+/// pass before found, or what the rays of both patches say of them. The result is void if an
+/// interrupt came before all rays were traced. But for these it has the same bytes for any number
+/// of threads. The tree must be that of the mesh.
 [[nodiscard]] FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree,
                                           const ExchangeOptions& options, const Workers& workers,
                                           Monitor& monitor);

@@ -2,6 +2,7 @@
 
 #include "geometry/elementary.h"
 #include "radiosity/engine/sampling/sobol.h"
+#include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/solving/solver.h"
@@ -11,12 +12,37 @@
 #include <cmath>
 
 namespace hemilux {
+namespace {
+
+/// Returns whether the back of a one-sided facet faces a patch, seen or hidden.
+bool may_see_backs(const Mesh& mesh, std::uint32_t patch) {
+    constexpr double rounding = 1e-9;
+    const Patch& from = mesh.patches()[patch];
+    for (std::uint32_t facet = 0; facet < mesh.scene().facets.size(); ++facet) {
+        if (mesh.has_back(facet))
+            continue;
+        const Polygon shape = mesh.shape_of(facet);
+        const Vec3 front = shape.area_vector();
+        const double level = -rounding * glm::length(front);
+        const bool is_behind = std::ranges::any_of(from.shape.corner, [&](const Vec3& corner) {
+            return glm::dot(front, corner - shape.corner[0]) < level;
+        });
+        if (is_behind && std::ranges::any_of(shape.corner, [&from](const Vec3& corner) {
+                return glm::dot(from.normal, corner - from.shape.corner[0]) > rounding;
+            }))
+            return true;
+    }
+    return false;
+}
+
+} // namespace
 
 void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
     const auto start = PatchStart::in_any_axes(mesh_, patch);
     const std::uint32_t of_batch = rays / batches;
     std::array<std::array<double, batches>, opens> counts{};
-    view.seen.clear();
+    hit_.clear();
+    band_counts_.assign(bands_ ? bands_->size() : 0, 0);
     for (std::uint32_t batch = 0; batch < batches; ++batch) {
         SobolBlocks<4> points(hash_words({seed_, patch, batch}));
         rays_.clear();
@@ -28,16 +54,24 @@ void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
         find_receivers(rays_, mesh_, tracer_, receivers_);
         for (std::size_t k = 0; k < receivers_.size(); ++k) {
             const auto count = [&](Open open) { ++counts[static_cast<std::size_t>(open)][batch]; };
-            if (receivers_[k] == escaped)
-                count(rays_[k].direction[up_] > 0 ? Open::sky : Open::ground);
-            else if (receivers_[k] == absorbed)
+            if (receivers_[k] == escaped) {
+                const bool is_up = rays_[k].direction[up_] > 0;
+                count(is_up ? Open::sky : Open::ground);
+                if (is_up && bands_)
+                    ++band_counts_[bands_->of(rays_[k].direction)];
+            } else if (receivers_[k] == absorbed)
                 count(Open::back);
             else if (receivers_[k] != patch)
-                view.seen.push_back(receivers_[k]);
+                hit_.push_back(receivers_[k]);
         }
     }
-    std::ranges::sort(view.seen);
-    view.seen.erase(std::unique(view.seen.begin(), view.seen.end()), view.seen.end());
+    std::ranges::sort(hit_);
+    view.seen.clear();
+    for (const std::uint32_t hit : hit_)
+        if (view.seen.empty() || view.seen.back().patch != hit)
+            view.seen.push_back({hit, 1});
+        else
+            ++view.seen.back().rays;
     for (std::size_t open = 0; open < opens; ++open) {
         double sum = 0, squares = 0;
         for (const double count : counts[open])
@@ -49,42 +83,70 @@ void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
         const double variance = spread * squares / (batches * freedom * of_batch * of_batch);
         const double share = sum / rays;
         // Where all batches agree, half a ray may be elsewhere.
-        const double least = share > 0 ? .5 / rays : 0;
+        const double least = (sum > 0 && sum < rays ? .5 : 1.5) / rays;
         view.open[open] = {share, std::max(std::sqrt(variance), least)};
     }
+    constexpr double level = 1 - 1e-12;
+    const double rise = start.frame.z[up_];
+    if (std::abs(rise) >= level)
+        view.open[static_cast<std::size_t>(rise > 0 ? Open::ground : Open::sky)] = {};
+    OpenShare& back = view.open[static_cast<std::size_t>(Open::back)];
+    if (!(back.factor > 0) && !may_see_backs(mesh_, patch))
+        back = {};
+    view.bands = shares_of(band_counts_, rays);
 }
 
 OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, double error, std::uint64_t seed,
-                          int up, const Workers& workers, Monitor& monitor) {
+                          int up, const SkyBands* bands, const Workers& workers, Monitor& monitor) {
     constexpr std::uint32_t first_rays = 1024, most_rays = 1 << 18;
     constexpr double least_share = .01;
     const std::size_t patches = mesh.patches().size();
     const auto excess = [&](const OpenShare& share) {
-        return share.standard_error / (error * std::max(share.factor, least_share));
+        return share.factor > 0
+                   ? share.standard_error / (error * std::max(share.factor, least_share))
+                   : 0;
     };
     OpenViews views;
     views.open.resize(patches);
-    std::atomic<std::uint64_t> traced{0};
-    workers.for_chunks_with(
-        patches, 16, [&] { return RowRays(mesh, tracer, seed, up); },
-        [&](RowRays& row, std::size_t begin, std::size_t end) {
-            RowView view;
-            for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
-                for (std::uint32_t rays = first_rays;;) {
-                    row.trace(static_cast<std::uint32_t>(i), rays, view);
-                    traced += rays;
-                    const double too_large = std::max(excess(view.open[0]), excess(view.open[1]));
-                    if (too_large <= 1 || rays == most_rays)
-                        break;
-                    // The error falls about as the power -0.6 of the rays.
-                    const double wanted = rays * elementary::pow(too_large, 1 / .6);
-                    while (rays < wanted && rays < most_rays)
-                        rays *= 2;
-                }
-                views.open[i] = view.open;
+    const std::size_t of_row = bands ? bands->size() : 0;
+    views.bands.resize(patches * of_row);
+    std::atomic<std::uint64_t> traced{0}, left{0};
+    const auto for_rows = [&](const auto& use) {
+        workers.for_chunks_with(
+            patches, 16, [&] { return RowRays(mesh, tracer, seed, up, bands); },
+            [&](RowRays& row, std::size_t begin, std::size_t end) {
+                RowView view;
+                for (std::size_t i = begin; i < end && !monitor.interrupted.is_wished(); ++i)
+                    use(row, view, i);
+            });
+    };
+    const auto trace = [&](RowRays& row, RowView& view, std::size_t i, std::uint32_t rays) {
+        row.trace(static_cast<std::uint32_t>(i), rays, view);
+        traced += rays;
+        views.open[i] = view.open;
+        std::ranges::copy(view.bands,
+                          views.bands.begin() + static_cast<std::ptrdiff_t>(i * of_row));
+    };
+    for_rows([&](RowRays& row, RowView& view, std::size_t i) { trace(row, view, i, first_rays); });
+    views.is_void = monitor.interrupted.is_wished();
+    for_rows([&](RowRays& row, RowView& view, std::size_t i) {
+        for (std::uint32_t rays = first_rays; rays < most_rays;) {
+            const double too_large = std::max(excess(views.open[i][0]), excess(views.open[i][1]));
+            if (too_large <= 1)
+                return;
+            if (monitor.interrupted) {
+                ++left;
+                return;
             }
-        });
+            // The error falls about as the power -0.6 of the rays.
+            const double wanted = rays * elementary::pow(too_large, 1 / .6);
+            while (rays < wanted && rays < most_rays)
+                rays *= 2;
+            trace(row, view, i, rays);
+        }
+    });
     views.rays = traced;
+    views.rows_left = left;
     monitor.rays += views.rays;
     return views;
 }

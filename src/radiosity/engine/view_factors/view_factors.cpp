@@ -2,6 +2,7 @@
 
 #include "geometry/compensated_sum.h"
 #include "geometry/elementary.h"
+#include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 
@@ -62,6 +63,27 @@ void sum_pairs(const ExchangeList& list, std::span<const std::uint32_t> row_of,
     }
 }
 
+/// Sums the parts of the sky, which are scaled to what closing left of it.
+void sum_bands(const ExchangeList& list, std::span<const std::uint32_t> row_of,
+               ViewFactors& factors) {
+    const std::size_t bands = list.bands.size() / list.area.size();
+    factors.bands.resize(bands * factors.rows());
+    for (std::size_t i = 0; i < list.area.size(); ++i) {
+        const double share = list.area[i] / factors.area[row_of[i]];
+        for (std::size_t k = 0; k < bands; ++k) {
+            const OpenShare& of_patch = list.bands[i * bands + k];
+            OpenShare& sum = factors.bands[row_of[i] * bands + k];
+            sum.factor += share * of_patch.factor;
+            sum.standard_error =
+                elementary::hypot(sum.standard_error, share * of_patch.standard_error);
+        }
+    }
+    if (bands > 0)
+        for (std::size_t row = 0; row < factors.rows(); ++row)
+            scale_to_sum(std::span(factors.bands).subspan(row * bands, bands),
+                         factors.open[row][static_cast<std::size_t>(Open::sky)].factor);
+}
+
 } // namespace
 
 ViewFactors sum_over_rows(const ExchangeList& list, std::span<const std::uint32_t> row_of,
@@ -84,6 +106,7 @@ ViewFactors sum_over_rows(const ExchangeList& list, std::span<const std::uint32_
                 elementary::hypot(sum.standard_error, share * of_patch.standard_error);
         }
     }
+    sum_bands(list, row_of, factors);
     sum_pairs(list, row_of, factors);
     return factors;
 }
@@ -92,7 +115,7 @@ ViewFactors view_factors(const Mesh& mesh, const WideBvh& tree,
                          std::span<const std::uint32_t> row_of, std::size_t rows,
                          const ExchangeOptions& options, const Workers& workers, Monitor& monitor) {
     FoundExchange found = find_exchange(mesh, tree, options, workers, monitor);
-    if (monitor.interrupted)
+    if (found.is_void)
         return {};
     const ClosingAudit audit = close_rows(found.list, options.rays);
     ViewFactors factors = sum_over_rows(found.list, row_of, rows);

@@ -5,6 +5,7 @@
 #include "radiosity/engine/view_factors/closing.h"
 #include "radiosity/engine/view_factors/find_exchange.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +26,8 @@ struct ViewFactors {
     std::vector<double> area; ///< by row, in the square of the unit of the mesh's local frame
     std::vector<std::array<OpenShare, opens>> open; ///< by row: sky, ground and backs
     std::vector<double> unlisted_bound;             ///< by row: ExchangeList
-    ClosingAudit audit;                             ///< of the patches
+    std::vector<OpenShare> bands; ///< of the sky, by row and band: they sum to it; or empty
+    ClosingAudit audit;           ///< of the patches
     ExchangeWork work;
 
     [[nodiscard]] std::size_t rows() const { return area.size(); }
@@ -33,12 +35,17 @@ struct ViewFactors {
     [[nodiscard]] std::size_t place(std::uint32_t row, std::uint32_t of_column) const;
     /// Returns F [-] and its standard error; both 0 where the pair is not listed.
     [[nodiscard]] OpenShare between(std::uint32_t from, std::uint32_t to) const;
+    /// Returns the parts of the sky of a row.
+    [[nodiscard]] std::span<const OpenShare> bands_of(std::uint32_t row) const {
+        const std::size_t count = bands.size() / std::max<std::size_t>(rows(), 1);
+        return std::span(bands).subspan(row * count, count);
+    }
     /// Returns the sum of a row with what is open [-].
     [[nodiscard]] double row_sum(std::uint32_t row) const;
 };
 
 /// Computes the factors between `rows` surfaces; row_of[patch] says to which a patch belongs. The
-/// result is void if the monitor was interrupted.
+/// result has no rows where find_exchange() returns a void one.
 [[nodiscard]] ViewFactors view_factors(const Mesh& mesh, const WideBvh& tree,
                                        std::span<const std::uint32_t> row_of, std::size_t rows,
                                        const ExchangeOptions& options, const Workers& workers,

@@ -1,0 +1,28 @@
+#pragma once
+// The sunlit fractions of `viewfactors --sunlit`: of surfaces, and of points.
+
+#include "app/factors/factor_run.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace hemilux {
+
+/// How far it came.
+struct SunlitRun {
+    std::size_t suns = 0;           ///< those whose rows are written
+    std::size_t exact = 0, all = 0; ///< fractions of surfaces
+    double worst_error = 0;         ///< largest standard error [-]
+};
+
+/// Finds the fractions of all surfaces and points for each sun and writes a table
+/// `sun,surface,sunlit,standard_error`, a row for each of them. Points
+/// count from `first_point`. An interrupt ends it after the suns that are complete, which are
+/// written. Throws OutputError.
+[[nodiscard]] SunlitRun write_sunlit(const std::string& path, const ViewFactorSettings& settings,
+                                     const FactorScene& scene, std::span<const Vec3> suns,
+                                     std::span<const FactorPoint> points, std::size_t first_point,
+                                     Monitor& monitor);
+
+} // namespace hemilux
