@@ -98,11 +98,11 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
     method.add_text("--points", "FILE", settings.points,
                     "points with normals that get rows of their own: rows x,y,z,nx,ny,nz");
     add_parsed(method, "--sun", "X,Y,Z",
-               "the direction to the sun, not that of its light as for solve; for --sunlit",
+               "a sun for --sunlit: the direction in which its light goes, as for solve",
                "three numbers X,Y,Z that are not all 0", direction_from,
                [&settings](const Vec3& direction) { settings.sun = direction; });
     method.add_text("--suns", "FILE", settings.suns,
-                    "more directions to the sun, for --sunlit: rows x,y,z");
+                    "more suns for --sunlit: rows x,y,z of such directions");
     add_random_options(method, settings.options);
     const Command output = command.under(output_group);
     add_parsed(

@@ -24,6 +24,7 @@
 #include "io/results/view_factor_files.h"
 #include "io/results/view_factor_legend.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace hemilux {
@@ -182,7 +183,7 @@ FactorTable table_of(const ViewFactorSettings& settings, const FactorScene& scen
     return table;
 }
 
-/// The directions to the sun, that of --sun first.
+/// Returns the directions to the suns, that of --sun first.
 std::vector<Vec3> suns_of(const ViewFactorSettings& settings, const RunFiles& files) {
     std::vector<Vec3> suns;
     if (settings.sun)
@@ -195,7 +196,18 @@ std::vector<Vec3> suns_of(const ViewFactorSettings& settings, const RunFiles& fi
     if (suns.empty() != settings.sunlit.empty())
         throw UsageError(suns.empty() ? "--sunlit: name the sun by --sun or --suns"
                                       : "--sun and --suns are for --sunlit FILE.csv");
+    for (Vec3& sun : suns)
+        sun = -sun;
     return suns;
+}
+
+void warn_of_low_suns(const ViewFactorSettings& settings, std::span<const Vec3> suns, int up) {
+    const auto low = std::ranges::count_if(suns, [up](const Vec3& sun) { return sun[up] < 0; });
+    if (low > 0)
+        log_line(
+            settings.verbosity, Verbosity::normal,
+            "warning: " + counted(static_cast<std::uint64_t>(low), "sun shines", "suns shine") +
+                " from below the horizon; --sun and --suns say where their light goes");
 }
 
 /// Returns the files of the run. Throws UsageError where there is nothing to write.
@@ -243,6 +255,7 @@ int viewfactors(const ViewFactorSettings& settings) {
     Monitor monitor;
     InterruptGuard guard;
     const LoadedSurfaces loaded = load_surfaces(settings, files);
+    warn_of_low_suns(settings, suns, loaded.up);
     const FactorSurfaces surfaces = factor_surfaces(loaded.mesh, settings.by);
     const std::optional<SkyBands> bands = bands_of(settings, loaded.up);
     check_distances(settings.points, points, loaded.mesh);

@@ -39,7 +39,7 @@ struct ViewFactorSettings {
     std::optional<SkyDivision> sky_bands;
     std::optional<int> up;   ///< axis; empty: 1 for glTF, else 2
     std::string points;      ///< file of further rows; empty: none
-    std::optional<Vec3> sun; ///< unit vector to it
+    std::optional<Vec3> sun; ///< unit vector in which its light goes
     std::string suns;        ///< file of more of them; empty: none
     std::string sunlit;      ///< path of the table of sunlit fractions; empty: none
     std::vector<std::string> outputs;

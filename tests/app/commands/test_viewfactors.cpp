@@ -307,23 +307,26 @@ TEST_CASE("viewfactors --sky-bands divides the column of the sky") {
 TEST_CASE("viewfactors --sunlit writes the sunlit share of surfaces and points for each sun") {
     const Workplace place;
     place.write("box.obj", open_box);
-    place.write("suns.txt", "x,y,z\n1,0,1 # from the east at 45 degrees\n0 0 -2\n");
+    place.write("suns.txt", "x,y,z\n-1,0,-1 # from the east at 45 degrees\n0 0 2\n");
     place.write("points.txt", ".2,.5,0,0,0,1\n.9,.5,0,0,0,1\n");
-    const auto outcome = place.hemilux("viewfactors box.obj --by group --sun 0,0,3 --suns suns.txt "
-                                       "--points points.txt --sunlit s.csv");
+    const auto outcome =
+        place.hemilux("viewfactors box.obj --by group --sun 0,0,-3 --suns suns.txt "
+                      "--points points.txt --sunlit s.csv");
     REQUIRE(outcome.code == 0);
-    CHECK_THAT(outcome.err,
-               Contains("3 suns: 6 of 6 sunlit fractions exact") && Contains("wrote s.csv"));
+    CHECK_THAT(outcome.err, Contains("3 suns: 6 of 6 sunlit fractions exact") &&
+                                Contains("wrote s.csv") &&
+                                Contains("warning: 1 sun shines from below the horizon"));
     // Suns by surfaces 0 and 1 and points 2 and 3. The inside of the walls is 4, of which the west
     // is in the sun at 45 degrees; the floor is in the shade of the east.
     CHECK(place.read("s.csv") == "sun,surface,sunlit,standard_error\n"
                                  "0,0,1,0\n0,1,0,0\n0,2,1,0\n0,3,1,0\n"
                                  "1,0,0,0\n1,1,0.25,0\n1,2,0,0\n1,3,0,0\n"
                                  "2,0,0,0\n2,1,0,0\n2,2,0,0\n2,3,0,0\n");
-    REQUIRE(place
-                .hemilux("viewfactors box.obj -q --by group --sky --sun 1,0,2 --points points.txt "
-                         "--sunlit t.csv -o f.csv --legend l.csv")
-                .code == 0);
+    REQUIRE(
+        place
+            .hemilux("viewfactors box.obj -q --by group --sky --sun -1,0,-2 --points points.txt "
+                     "--sunlit t.csv -o f.csv --legend l.csv")
+            .code == 0);
     // Half of the floor; points follow the sky in the legend.
     CHECK_THAT(place.read("t.csv"), Contains("\n0,0,0.5,0\n") && Contains("\n0,3,1,0\n0,4,0,0\n"));
     CHECK(rows_of(place.read("l.csv"))[4][0] == "3");
@@ -354,7 +357,7 @@ TEST_CASE("viewfactors --time writes what is known when the time is over, with i
     REQUIRE(place.hemilux("viewfactors city.obj -q --error 10% --time 1h -o a.csv").code == 0);
     REQUIRE(place
                 .hemilux("viewfactors city.obj -q --error .1% --of sky --time .01 -o s.vtu "
-                         "--sun 1,1,1 --sunlit s.csv")
+                         "--sun -1,-1,-1 --sunlit s.csv")
                 .code == 0);
     CHECK(rows_of(place.read("s.csv")).size() == 1 + 216); // all of it
     test::check_fails(place, 1, "viewfactors city.obj --time 0 -o b.csv", "--time");
@@ -366,7 +369,7 @@ TEST_CASE("viewfactors writes what is known after Ctrl-C") {
     std::string said;
     for (double seconds = 1; seconds <= 64; seconds *= 2) { // the first rays take that long
         test::Running run(place,
-                          "viewfactors city.obj --error .01% -o f.csv --legend l.csv --sun 0,0,1 "
+                          "viewfactors city.obj --error .01% -o f.csv --legend l.csv --sun 0,0,-1 "
                           "--sunlit s.csv",
                           place.path("stderr.txt").c_str());
         std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
