@@ -103,9 +103,9 @@ class Gathering {
     void log_end_of_points(std::size_t points) const;
     [[nodiscard]] ReadError learn(std::span<const TargetPart> target, std::uint64_t seed,
                                   std::optional<double> seconds = {});
-    template <class Gather, class Judge>
+    template <class Gather>
     Errors gather_until_right(const std::string& what, const ReadError& read, Image& shown,
-                              const Gather& gather, const Judge& judge, std::uint64_t seed);
+                              const Gather& gather, PictureJudge judge);
     void add(const Errors& errors) {
         if (!errors_ || errors.bound() > errors_->bound())
             errors_ = errors;
@@ -143,16 +143,15 @@ ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t see
     return found;
 }
 
-/// Gathers by so many rays at a point, and judges what was given out: judge(pixels, seed) does so
-/// by about so many pixels. gather(rays, round, alone) returns the light by a round of rays of its
-/// own. Where the error is too large, it is gathered by as many rays once more, and the mean of
-/// both is given out; then again with twice as many rays as there were. Once that does not help,
-/// each place at which light changes fast gathers by itself: then most of the error lies between
-/// the points of the grid, as in small pictures. Where the error itself is asked for, more pixels
-/// are judged.
-template <class Gather, class Judge>
+/// Gathers by so many rays at a point, and has what was given out judged. gather(rays, round,
+/// alone) returns the light by a round of rays of its own. Where the error is too large, it is
+/// gathered by as many rays once more, and the mean of both is given out; then again with twice as
+/// many rays as there were. Once that does not help, each place at which light changes fast gathers
+/// by itself: then most of the error lies between the points of the grid, as in small pictures.
+/// Where the error itself is asked for, more pixels are judged.
+template <class Gather>
 Errors Gathering::gather_until_right(const std::string& what, const ReadError& read, Image& shown,
-                                     const Gather& gather, const Judge& judge, std::uint64_t seed) {
+                                     const Gather& gather, PictureJudge judge) {
     constexpr unsigned max_rays = 256;
     constexpr std::uint64_t usual_pixels = 512, max_more = 64;
     constexpr double helps = .85;
@@ -162,7 +161,7 @@ Errors Gathering::gather_until_right(const std::string& what, const ReadError& r
         judged = more;
         const Stage stage("judging the " + what, settings_.verbosity);
         const Stopwatch watch;
-        const PictureError own = judge(usual_pixels * more, hash_words({seed, more - 1}));
+        const PictureError own = judge.error_of(shown, usual_pixels * more, workers_);
         statistics_.rays_learn += own.rays;
         statistics_.seconds_learn += watch.seconds();
         errors.noise = own.error;
@@ -316,11 +315,8 @@ void Gathering::find_picture(const Camera& camera) {
             options.gather_round = round;
             return render_view(scene_, camera, options);
         },
-        [&](std::size_t pixels, std::uint64_t seed) {
-            return picture_error(mesh, scene_.tracer, light_.cache->light(), rays, picture, pixels,
-                                 seed, workers_);
-        },
-        seed_of(7));
+        judge_of_pictures(mesh, scene_.tracer, light_.cache->light(), rays, width, height,
+                          seed_of(7)));
     light_.picture = std::move(picture);
 }
 
@@ -356,11 +352,8 @@ void Gathering::find_lightmap(const NamedLayout& named) {
                 found.known = std::move(one.known);
                 return std::move(one.image);
             },
-            [&](std::size_t pixels, std::uint64_t judge_seed) {
-                return lightmap_error(mesh, scene_.tracer, light, texels, found, settings_.bake,
-                                      pixels, judge_seed, workers_);
-            },
-            seed(12));
+            judge_of_lightmaps(mesh, scene_.tracer, light, texels, covered, settings_.bake,
+                               seed(12)));
         if (!object.empty())
             statistics_.objects.push_back(
                 {object, static_cast<std::uint64_t>(std::ranges::count(found.known, true)),

@@ -229,12 +229,14 @@ std::vector<TargetPart> lightmap_parts(const Mesh& mesh, const TexelMap& texels,
     return all;
 }
 
-PictureError lightmap_error(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
-                            const TexelMap& texels, const GatheredLightmap& lightmap, Bake bake,
-                            std::size_t count, std::uint64_t seed, const Workers& workers) {
+namespace {
+
+std::vector<JudgedPixel> judged_texels(const Mesh& mesh, const TexelMap& texels,
+                                       const std::vector<bool>& covered, Bake bake,
+                                       std::size_t count, std::uint64_t seed) {
     std::vector<std::size_t> shown;
     for (std::size_t k = 0; k < texels.count(); ++k)
-        if (lightmap.known[k] && texels.is_inside(k))
+        if (texels.shows(k) && !covered[k] && texels.is_inside(k))
             shown.push_back(k);
     Rng rng(seed);
     std::vector<JudgedPixel> judged;
@@ -246,11 +248,25 @@ PictureError lightmap_error(const Mesh& mesh, const Tracer& tracer, const Surfac
         Colours colours{Vec3(1.0), Vec3(0.0)};
         if (bake == Bake::radiosity)
             colours = colours_at(mesh, mesh.patches()[at.patch], at.position);
-        if (colours.reflectance == Vec3(0.0))
-            continue;
-        judged.push_back({{{texels.receiver(texel), colours}}, Vec3(lightmap.image.pixels[texel])});
+        if (colours.reflectance != Vec3(0.0))
+            judged.push_back({texel, {{texels.receiver(texel), colours}}});
     }
-    return error_of_pixels(mesh, tracer, light, judged, seed, bake == Bake::indirect, workers);
+    return judged;
+}
+
+} // namespace
+
+PictureJudge judge_of_lightmaps(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
+                                const TexelMap& texels, const std::vector<bool>& covered, Bake bake,
+                                std::uint64_t seed) {
+    return {mesh,
+            tracer,
+            light,
+            [&mesh, &texels, &covered, bake](std::size_t count, std::uint64_t of) {
+                return judged_texels(mesh, texels, covered, bake, count, of);
+            },
+            seed,
+            bake == Bake::indirect};
 }
 
 } // namespace hemilux

@@ -54,12 +54,10 @@ void fill_texels(GatheredLightmap& lightmap, const TexelMap& texels, int margin)
                                                      const std::vector<bool>& covered, Bake bake,
                                                      std::uint64_t seed);
 
-/// Returns how far the lightmap is from the light that its rays read, judged as that of pictures
-/// (picture_error.h), by about `count` texels.
-[[nodiscard]] PictureError lightmap_error(const Mesh& mesh, const Tracer& tracer,
-                                          const SurfaceLight& light, const TexelMap& texels,
-                                          const GatheredLightmap& lightmap, Bake bake,
-                                          std::size_t count, std::uint64_t seed,
-                                          const Workers& workers);
+/// Returns the judge of lightmaps by texels that are not covered.
+[[nodiscard]] PictureJudge judge_of_lightmaps(const Mesh& mesh, const Tracer& tracer,
+                                              const SurfaceLight& light, const TexelMap& texels,
+                                              const std::vector<bool>& covered, Bake bake,
+                                              std::uint64_t seed);
 
 } // namespace hemilux

@@ -38,95 +38,120 @@ std::optional<Place> place_at(const Mesh& mesh, const Tracer& tracer, const Ray&
                  {passed * colours.reflectance, passed * colours.emission}};
 }
 
-/// Returns the places of a pixel, if it shows one side of one facet.
-JudgedPixel judged_pixel(const Mesh& mesh, const Tracer& tracer, const CameraRays& camera,
-                         const Image& picture, int x, int y, Rng& rng) {
+/// Returns the places of a pixel, if it shows one side of one facet; else none.
+std::vector<Place> places_of(const Mesh& mesh, const Tracer& tracer, const CameraRays& camera,
+                             const Vec2& corner, const Vec2& size, Rng& rng) {
     const auto look_through = [&](double dx, double dy) {
         return place_at(mesh, tracer,
-                        camera.ray((x + dx) / picture.width, (y + dy) / picture.height));
+                        camera.ray((corner.x + dx) / size.x, (corner.y + dy) / size.y));
     };
-    JudgedPixel pixel{{}, Vec3(picture.pixels[picture.index(x, y)])};
     const auto first = look_through(.5, .5);
     if (!first || first->colours.reflectance == Vec3(0.0))
-        return pixel;
+        return {};
     for (const Vec2& to : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(1, 1)})
-        if (const auto corner = look_through(to.x, to.y);
-            !corner || corner->at.facet != first->at.facet || corner->at.normal != first->at.normal)
-            return pixel;
+        if (const auto there = look_through(to.x, to.y);
+            !there || there->at.facet != first->at.facet || there->at.normal != first->at.normal)
+            return {};
+    std::vector<Place> places;
     for (std::size_t k = 0; k < 2 * places_in_pixel; ++k) {
         const double dx = rng.uniform(), dy = rng.uniform();
-        pixel.places.push_back(look_through(dx, dy).value_or(*first));
+        places.push_back(look_through(dx, dy).value_or(*first));
     }
-    return pixel;
+    return places;
+}
+
+std::vector<JudgedPixel> pixels_of(const Mesh& mesh, const Tracer& tracer, const CameraRays& camera,
+                                   int width, int height, std::size_t count, std::uint64_t seed) {
+    const double side = std::max(1.0, std::sqrt(double(width) * double(height) / double(count)));
+    std::vector<JudgedPixel> pixels;
+    Rng rng(seed);
+    for (double top = 0; top < height; top += side)
+        for (double left = 0; left < width; left += side) {
+            const double u = rng.uniform(), v = rng.uniform();
+            const int x = static_cast<int>(left + u * side), y = static_cast<int>(top + v * side);
+            if (x >= width || y >= height)
+                continue;
+            std::vector<Place> places =
+                places_of(mesh, tracer, camera, {x, y}, {width, height}, rng);
+            if (!places.empty())
+                pixels.push_back({static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                      static_cast<std::size_t>(x),
+                                  std::move(places)});
+        }
+    return pixels;
 }
 
 } // namespace
 
-PictureError picture_error(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
-                           const CameraRays& camera, const Image& picture, std::size_t count,
-                           std::uint64_t seed, const Workers& workers) {
-    const double side =
-        std::max(1.0, std::sqrt(double(picture.width) * double(picture.height) / double(count)));
-    std::vector<JudgedPixel> pixels;
-    Rng rng(seed);
-    for (double top = 0; top < picture.height; top += side)
-        for (double left = 0; left < picture.width; left += side) {
-            const double u = rng.uniform(), v = rng.uniform();
-            const int x = static_cast<int>(left + u * side), y = static_cast<int>(top + v * side);
-            if (x >= picture.width || y >= picture.height)
-                continue;
-            JudgedPixel pixel = judged_pixel(mesh, tracer, camera, picture, x, y, rng);
-            if (!pixel.places.empty())
-                pixels.push_back(std::move(pixel));
-        }
-    return error_of_pixels(mesh, tracer, light, pixels, seed, false, workers);
+PictureJudge judge_of_pictures(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
+                               const CameraRays& camera, int width, int height,
+                               std::uint64_t seed) {
+    return {mesh, tracer, light,
+            [&mesh, &tracer, &camera, width, height](std::size_t count, std::uint64_t of) {
+                return pixels_of(mesh, tracer, camera, width, height, count, of);
+            },
+            seed};
 }
 
-PictureError error_of_pixels(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
-                             std::span<const JudgedPixel> pixels, std::uint64_t seed,
-                             bool only_reflected, const Workers& workers) {
+/// Returns the number of rays that it took.
+std::uint64_t PictureJudge::estimate_more(std::size_t pixels, const Workers& workers) {
     constexpr std::size_t places = 2 * places_in_pixel;
+    const std::uint64_t seed = hash_words({seed_, asked_});
+    const std::vector<JudgedPixel> chosen = choice_(pixels - asked_, seed);
+    asked_ = pixels;
     const auto place_of = [](const JudgedPixel& pixel, std::size_t j) -> const Place& {
         return pixel.places[pixel.places.size() == 1 ? 0 : j];
     };
     std::vector<SurfacePoint> at;
     std::vector<std::uint64_t> streams;
-    for (const JudgedPixel& pixel : pixels)
+    for (const JudgedPixel& pixel : chosen)
         for (std::size_t j = 0; j < places; ++j) {
             at.push_back(place_of(pixel, j).at);
             streams.push_back(hash_words({seed, at.size()}));
         }
-    FinalGather gather(mesh, tracer, light);
-    gather.set_only_reflected(only_reflected);
+    FinalGather gather(mesh_, tracer_, light_);
+    gather.set_only_reflected(only_reflected_);
     const StopFlag never;
     const std::vector<Vec3> irradiance = gather.irradiance(at, streams, 1, workers, never);
+    std::size_t next = 0;
+    for (const JudgedPixel& pixel : chosen) {
+        Estimates& found = known_.emplace_back(Estimates{.pixel = pixel.pixel});
+        for (std::size_t j = 0; j < places; ++j, ++next) {
+            const Colours& colours = place_of(pixel, j).colours;
+            found.reflected.at(j / places_in_pixel) +=
+                colours.reflectance * irradiance[next] / double(places_in_pixel);
+            found.emitted.at(j / places_in_pixel) += colours.emission / double(places_in_pixel);
+        }
+    }
+    return gather.rays();
+}
+
+PictureError PictureJudge::error_of(const Image& picture, std::size_t pixels,
+                                    const Workers& workers) {
+    const std::uint64_t rays = pixels > asked_ ? estimate_more(pixels, workers) : 0;
     double products = 0, squares = 0, size = 0;
     LocalErrors parts;
-    const std::size_t of_part = (pixels.size() + parts_of_picture - 1) / parts_of_picture;
+    const std::size_t of_part = (known_.size() + parts_of_picture - 1) / parts_of_picture;
     double part_products = 0, part_size = 0;
-    for (std::size_t k = 0, next = 0; k < pixels.size(); ++k) {
-        std::array<Vec3, 2> off{}, reflected{};
-        for (std::size_t j = 0; j < places; ++j, ++next) {
-            const Colours& colours = place_of(pixels[k], j).colours;
-            const Vec3 here = colours.reflectance * irradiance[next] / double(places_in_pixel);
-            reflected.at(j / places_in_pixel) += here;
-            off.at(j / places_in_pixel) +=
-                here + (colours.emission - pixels[k].shown) / double(places_in_pixel);
-        }
-        const double product = glm::dot(off[0], off[1]);
+    for (std::size_t k = 0; k < known_.size(); ++k) {
+        const auto& [pixel, reflected, emitted] = known_[k];
+        const Vec3 shown(picture.pixels[pixel]);
+        const double product = glm::dot(reflected[0] + emitted[0] - shown,
+                                        reflected[1] + emitted[1] - shown),
+                     light = glm::dot(reflected[0], reflected[1]);
         products += product;
         squares += product * product;
-        size += glm::dot(reflected[0], reflected[1]);
+        size += light;
         part_products += product;
-        part_size += glm::dot(reflected[0], reflected[1]);
-        if ((k + 1) % of_part == 0 || k + 1 == pixels.size())
+        part_size += light;
+        if ((k + 1) % of_part == 0 || k + 1 == known_.size())
             parts.add(std::exchange(part_products, 0.0), std::exchange(part_size, 0.0));
     }
     if (!(size > 0))
-        return {.rays = gather.rays()};
+        return {.rays = rays};
     const double square = std::max(products / size, 0.0), sigma = std::sqrt(squares) / size;
     const double error = std::sqrt(square);
-    return {error, std::sqrt(square + sigma) - error, parts.within(), gather.rays()};
+    return {error, std::sqrt(square + sigma) - error, parts.within(), rays};
 }
 
 } // namespace hemilux

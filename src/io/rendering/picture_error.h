@@ -8,9 +8,11 @@
 #include "radiosity/light/cached_light/surface_light.h"
 #include "radiosity/paper/scene/varying_colours.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace hemilux {
@@ -26,31 +28,58 @@ struct PictureError {
     std::uint64_t rays = 0;
 };
 
-/// Gathers the light at random pixels once more, twice independently, with many rays. The mean
-/// product of both differences from the picture is its squared error, free of their noise. Pixels
-/// on edges are left out. About so many pixels are judged, one in each of equal parts of the
-/// picture.
-[[nodiscard]] PictureError picture_error(const Mesh& mesh, const Tracer& tracer,
-                                         const SurfaceLight& light, const CameraRays& camera,
-                                         const Image& picture, std::size_t pixels,
-                                         std::uint64_t seed, const Workers& workers);
-
 /// A pixel that is judged, by what it shows at places in it.
 struct JudgedPixel {
     struct Place {
         SurfacePoint at;
         Colours colours;
     };
-    /// Those of both estimates, half for each; one place stands for all. Empty: it is not judged.
+    std::size_t pixel; ///< its number in the picture
+    /// Those of both estimates, half for each; one place stands for all.
     std::vector<Place> places;
-    Vec3 shown; ///< its light [W/m2]
 };
 
-/// Does the same for pixels that were chosen. With `only_reflected` they show no light that arrives
-/// straight from where it is emitted.
-[[nodiscard]] PictureError error_of_pixels(const Mesh& mesh, const Tracer& tracer,
-                                           const SurfaceLight& light,
-                                           std::span<const JudgedPixel> pixels, std::uint64_t seed,
-                                           bool only_reflected, const Workers& workers);
+/// Gathers the light at random pixels, twice independently, with many rays. The mean product of
+/// both differences from a picture is its squared error, free of their noise. The light of a pixel
+/// is gathered once, for all pictures that are judged.
+class PictureJudge {
+  public:
+    /// Chooses about so many pixels, spread evenly over the picture.
+    using Choice = std::function<std::vector<JudgedPixel>(std::size_t count, std::uint64_t seed)>;
+
+    /// With `only_reflected`, pictures show no light that arrives straight from where it is
+    /// emitted. All that is referred to must outlive this object.
+    PictureJudge(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light, Choice choice,
+                 std::uint64_t seed, bool only_reflected = false)
+        : mesh_(mesh), tracer_(tracer), light_(light), choice_(std::move(choice)), seed_(seed),
+          only_reflected_(only_reflected) {}
+
+    /// Returns the error of a picture by about so many pixels, or by all that are known already.
+    [[nodiscard]] PictureError error_of(const Image& picture, std::size_t pixels,
+                                        const Workers& workers);
+
+  private:
+    /// What a pixel shows, by both estimates [W/m2].
+    struct Estimates {
+        std::size_t pixel;
+        std::array<Vec3, 2> reflected{}, emitted{};
+    };
+    [[nodiscard]] std::uint64_t estimate_more(std::size_t pixels, const Workers& workers);
+
+    const Mesh& mesh_;
+    const Tracer& tracer_;
+    const SurfaceLight& light_;
+    Choice choice_;
+    std::uint64_t seed_;
+    bool only_reflected_;
+    std::size_t asked_ = 0; ///< so many pixels were
+    std::vector<Estimates> known_;
+};
+
+/// Returns the judge of pictures of this size. Pixels on edges, and those of what reflects nothing,
+/// are left out. One pixel is judged in each of equal parts of the picture.
+[[nodiscard]] PictureJudge judge_of_pictures(const Mesh& mesh, const Tracer& tracer,
+                                             const SurfaceLight& light, const CameraRays& camera,
+                                             int width, int height, std::uint64_t seed);
 
 } // namespace hemilux

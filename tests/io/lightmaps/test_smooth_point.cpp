@@ -154,9 +154,10 @@ TEST_CASE("the sun ends on a coarse sphere where it ends on the sphere", "[smoot
                 REQUIRE(lightmap.image.pixels[k].x == 0);
         }
     // The reported error is that of these texels.
-    const PictureError error = lightmap_error(model.mesh, model.bvh, light, texels, lightmap,
-                                              Bake::irradiance, 512, 3, workers);
-    CHECK(error.error < .03);
+    const std::vector<bool> covered(texels.count());
+    CHECK(judge_of_lightmaps(model.mesh, model.bvh, light, texels, covered, Bake::irradiance, 3)
+              .error_of(lightmap.image, 512, workers)
+              .error < .03);
 }
 
 TEST_CASE("smooth points stay below what stands closely above, and above hollow facets",

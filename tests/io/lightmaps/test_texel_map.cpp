@@ -146,9 +146,10 @@ TEST_CASE("texels have the light of their points, also where a block stands on t
         all += truth.lights[k].irradiance.x * truth.lights[k].irradiance.x;
     }
     CHECK(std::sqrt(squares / all) < .03);
-    const PictureError error = lightmap_error(mesh, floor.model.bvh, light, floor.texels, lightmap,
-                                              Bake::irradiance, 512, 3, workers);
-    CHECK(error.error < .03);
+    CHECK(
+        judge_of_lightmaps(mesh, floor.model.bvh, light, floor.texels, covered, Bake::irradiance, 3)
+            .error_of(lightmap.image, 512, workers)
+            .error < .03);
 
     // Under the block there is the light that is beside it, and no darkness.
     const glm::vec3 under = lightmap.image.at(size / 2, size / 2),
@@ -190,8 +191,8 @@ TEST_CASE("texels have the light of lights without extent, unless only what is r
         REQUIRE(lightmap.image.pixels[texel].x ==
                 Approx(10 * way.y / std::pow(distance, 3)).epsilon(1e-3));
     }
-    CHECK(lightmap_error(model.mesh, model.bvh, light, texels, lightmap, Bake::irradiance, 256, 3,
-                         workers)
+    CHECK(judge_of_lightmaps(model.mesh, model.bvh, light, texels, covered, Bake::irradiance, 3)
+              .error_of(lightmap.image, 256, workers)
               .error < 1e-3);
     const GatheredLightmap indirect = gather_lightmap(model.mesh, model.bvh, light, texels, covered,
                                                       {.bake = Bake::indirect}, workers);

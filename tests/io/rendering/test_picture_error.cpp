@@ -28,8 +28,8 @@ struct Furnace {
     [[nodiscard]] PictureError error_of(float value, unsigned threads = 0) const {
         Image picture(160, 120);
         picture.pixels.assign(picture.pixels.size(), glm::vec3(value));
-        return picture_error(model.mesh, model.bvh, light, camera, picture, 512, 1,
-                             Workers(threads));
+        return judge_of_pictures(model.mesh, model.bvh, light, camera, 160, 120, 1)
+            .error_of(picture, 512, Workers(threads));
     }
 };
 
@@ -42,6 +42,24 @@ TEST_CASE("the error of a picture is that of its pixels, relative to what is ref
     CHECK(furnace.error_of(1.9f).error == Approx(.1).epsilon(1e-3));
     CHECK(furnace.error_of(2.2f).rays > 10'000);
     CHECK(furnace.error_of(2.2f, 1).error == furnace.error_of(2.2f, 3).error);
+}
+
+TEST_CASE("what pixels show is estimated once for all pictures, and more pixels join the others") {
+    const Furnace furnace;
+    PictureJudge judge = judge_of_pictures(furnace.model.mesh, furnace.model.bvh, furnace.light,
+                                           furnace.camera, 160, 120, 1);
+    Image picture(160, 120);
+    picture.pixels.assign(picture.pixels.size(), glm::vec3(2.2f));
+    const Workers workers(0);
+    const PictureError first = judge.error_of(picture, 512, workers);
+    const PictureError more = judge.error_of(picture, 2048, workers);
+    CHECK(more.error == Approx(.2).epsilon(1e-3));
+    CHECK(more.rays > 2 * first.rays);
+    CHECK(more.rays < 4 * first.rays); // but for those before
+    picture.pixels.assign(picture.pixels.size(), glm::vec3(1.9f));
+    const PictureError other = judge.error_of(picture, 512, workers);
+    CHECK(other.error == Approx(.1).epsilon(1e-3));
+    CHECK(other.rays == 0);
 }
 
 TEST_CASE("the parts of a picture lie on single faces that it shows, all over it") {
