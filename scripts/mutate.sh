@@ -41,7 +41,7 @@ areas_below_the_horizon @@ paper @@ geometry/spherical_triangle.cpp @@ sum += an
 triangles_sampled_as_fans @@ paper @@ geometry/polygon_sampler.cpp @@ second_ = triangle_ ? c - b : d - a @@ second_ = triangle_ ? c - a : d - a
 no_floor @@ engine @@ radiosity/engine/methods/hemisphere.cpp @@ min_share = 0.25 @@ min_share = 0.025
 roulette_of_engine @@ engine @@ radiosity/engine/shooting/bounces_plan.cpp @@ expected >= 1 ? static_cast<double>(high - low) : expected @@ static_cast<double>(high - low)
-byte_wraps_in_engine @@ engine @@ radiosity/engine/densities/density.cpp @@ std::min(tracer.count(ray), 255u) @@ tracer.count(ray)
+byte_wraps_in_engine @@ engine @@ radiosity/engine/densities/level_counts.h @@ std::min(pierced[k], 255u) @@ pierced[k]
 chance_within_cluster @@ engine @@ radiosity/engine/emitters/emitter_choice.cpp @@ (powers[k + 1] - powers[k]) / power @@ 1.0 / (cluster.end - cluster.begin)
 emitters_by_index @@ engine @@ radiosity/engine/emitters/emitter_choice.cpp @@ return {order_[cluster.begin + k], (powers[k + 1] - powers[k]) / power}; @@ return {order_[cluster.begin + std::uint32_t(share * (cluster.end - cluster.begin)) + 0 * k], 1.0 / (cluster.end - cluster.begin)};
 chance_of_cluster_dropped @@ engine @@ radiosity/engine/emitters/emitter_choice.cpp @@ choice.chance *= width / cut.sum @@ choice.chance = width / cut.sum

@@ -263,9 +263,6 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
                   "once the picture of the patches is useful: by its standard errors it looks as "
                   "the one without noise (structural similarity of 0.95 at 640 pixels); pictures "
                   "are not gathered then without --gather");
-    command.after_parsing([command, &settings] {
-        settings.gather_pictures &= !settings.useful || command.given("--gather");
-    });
     add_error_accuracy_option(stop, settings.error_accuracy);
     add_whole_error_option(scene, settings);
     add_target_option(command.under("Target"), settings.target);

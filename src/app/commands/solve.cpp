@@ -122,6 +122,8 @@ double texels_of_lightmaps(const SolveSettings& settings, const FileLightmap& fi
 
 /// Reads the files of the run; checks its options first, and then what they are for this scene.
 Loaded load(SolveSettings settings) {
+    if (settings.useful && !settings.gather) // it judges the picture of the patches
+        settings.gather_pictures = false;
     const RunFiles files = check_files(settings);
     const std::span methods(&settings.method, 1);
     check_own_options(settings.options, methods);

@@ -91,7 +91,7 @@ TEST_CASE("--memory counts pictures") {
     place.write_room();
     const std::string run = "solve room.obj --steps 1 --memory 100M " + test::camera_in_room;
     for (const auto& [options, need] :
-         {std::pair("--no-gather", "results 604 MB"), {"--gather 4", "results 2.58 GB"}}) {
+         {std::pair("--no-gather", "results 604 MB"), {"--gather 4 -t 1", "results 1.56 GB"}}) {
         const auto outcome = place.hemilux(run + "--size 4096x4096 -o a.png " + options);
         CHECK(outcome.code == 3);
         CHECK_THAT(outcome.err, Contains(need) && Contains("a smaller --size"));
