@@ -35,7 +35,7 @@ struct ViewFactorSettings {
     FactorAim aim;                    ///< what it is of
     std::uint32_t rays = 1024;        ///< from each patch, to find who sees whom; a power of two
     bool sky = false, ground = false; ///< they are columns
-    std::optional<double> seconds; ///< after which factors are as exact as they are then
+    std::optional<double> seconds;    ///< after which factors are as exact as they are then
     std::optional<SkyDivision> sky_bands;
     std::optional<int> up;   ///< axis; empty: 1 for glTF, else 2
     std::string points;      ///< file of further rows; empty: none
