@@ -257,8 +257,8 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_method_options(method, settings.options);
     add_plain_option(method, settings.plain);
     add_own_options(command.under(own_group), methods(), settings.options);
-    add_stop_options(command.under("Stop at the first that is met"), settings.stop);
     const Command stop = command.under("Stop at the first that is met");
+    add_stop_options(stop, settings.stop);
     stop.add_flag("--useful", settings.useful,
                   "once the picture of the patches is useful: by its standard errors it looks as "
                   "the one without noise (structural similarity of 0.95 at 640 pixels); pictures "

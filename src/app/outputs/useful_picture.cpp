@@ -65,8 +65,7 @@ double UsefulPicture::similarity(const Solution& solution) {
                       {.width = width, .height = height, .threads = threads_});
     };
     const Image picture = picture_of(solution.radiosity);
-    if (!view_.exposure)
-        view_.exposure = exposure_of(picture, mesh_, tracer_, *view_.camera, threads_);
+    choose_exposure(view_, picture, scene, *view_.camera);
     const Display display = display_of(view_);
     return ssim_without_noise(luma_of(picture, display), luma_of(picture_of(*noisy), display));
 }

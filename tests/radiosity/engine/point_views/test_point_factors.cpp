@@ -5,6 +5,7 @@
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
+#include "support/bare_scene.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -17,13 +18,6 @@
 using namespace hemilux;
 
 namespace {
-
-Scene empty_scene() {
-    Scene scene;
-    scene.materials.emplace_back();
-    scene.groups.emplace_back("all");
-    return scene;
-}
 
 /// A scene whose surfaces are its patches.
 struct Rows {
@@ -88,7 +82,7 @@ std::map<std::uint32_t, double> by_rays(const Rows& rows, const FactorPoint& poi
 
 /// Blocks of different heights on a ground of 6 x 6 facets, and a roof that shows its back.
 Scene blocks() {
-    Scene scene = empty_scene();
+    Scene scene = test::bare_scene();
     test::add_quad(scene, {0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}, 6, 6, 0);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) {
@@ -102,7 +96,7 @@ Scene blocks() {
 } // namespace
 
 TEST_CASE("A point sees a rectangle above its corner and one beside it by their closed forms") {
-    Scene scene = empty_scene();
+    Scene scene = test::bare_scene();
     test::add_quad(scene, {0, 0, 2}, {0, 3, 2}, {5, 3, 2}, {5, 0, 2}, 1, 1, 0);
     test::add_quad(scene, {-4, 0, 0}, {-4, 6, 0}, {-4, 6, 1.5}, {-4, 0, 1.5}, 1, 1, 0);
     const Rows rows(std::move(scene));
@@ -137,7 +131,7 @@ TEST_CASE("A point in a closed cube sees its sides alone, at any tilt") {
 }
 
 TEST_CASE("A vertical point above nothing sees sky and ground by halves, a tilted one unlike") {
-    Scene scene = empty_scene();
+    Scene scene = test::bare_scene();
     test::add_quad(scene, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 1, 1, 0);
     const Rows rows(std::move(scene));
     const PointFactors wall = rows.row(rows.at({.5, .5, -1}, {1, 0, 0}));
@@ -151,7 +145,7 @@ TEST_CASE("A vertical point above nothing sees sky and ground by halves, a tilte
 }
 
 TEST_CASE("What stands between is cut out exactly") {
-    Scene scene = empty_scene();
+    Scene scene = test::bare_scene();
     test::add_quad(scene, {-2, -2, 2}, {-2, 2, 2}, {2, 2, 2}, {2, -2, 2}, 1, 1, 0);
     test::add_quad(scene, {-.3, -.3, 1}, {-.3, .3, 1}, {.3, .3, 1}, {.3, -.3, 1}, 1, 1, 0);
     // The second hides a part of what the first hides.
@@ -207,7 +201,7 @@ TEST_CASE("Factors from points among blocks are those of plain rays") {
 }
 
 TEST_CASE("Where too much lies between, rays say what is seen within their errors") {
-    Scene scene = empty_scene();
+    Scene scene = test::bare_scene();
     test::add_quad(scene, {-2, -2, 2}, {-2, 2, 2}, {2, 2, 2}, {2, -2, 2}, 1, 1, 0);
     double hidden = 0;
     for (int i = -10; i < 10; ++i) // a grid of 400 plates that hides a part of the roof

@@ -4,6 +4,7 @@
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
+#include "support/bare_scene.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -15,9 +16,7 @@ using namespace hemilux;
 namespace {
 
 Scene ground() {
-    Scene scene;
-    scene.materials.emplace_back();
-    scene.groups.emplace_back("all");
+    Scene scene = test::bare_scene();
     test::add_quad(scene, {0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}, 1, 1, 0);
     return scene;
 }

@@ -4,6 +4,7 @@
 #include "radiosity/engine/view_factors/view_factors.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
+#include "support/bare_scene.h"
 #include "support/catch.h"
 #include "support/closed_forms.h"
 #include "support/scenes.h"
@@ -23,9 +24,7 @@ namespace {
 
 /// The third of the polygons and those after it may be sheets with two sides.
 Scene scene_of(const std::vector<Polygon>& polygons, bool sheets = false) {
-    Scene scene;
-    scene.materials.emplace_back();
-    scene.groups.emplace_back("all");
+    Scene scene = test::bare_scene();
     for (const Polygon& polygon : polygons) {
         const auto first = static_cast<std::uint32_t>(scene.vertices.size());
         scene.vertices.insert(scene.vertices.end(), polygon.corner.begin(), polygon.corner.end());

@@ -3,6 +3,7 @@
 #include "radiosity/engine/view_factors/view_factors.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
+#include "support/bare_scene.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -16,9 +17,7 @@ using namespace hemilux;
 namespace {
 
 Scene few_blocks() {
-    Scene scene;
-    scene.materials.emplace_back();
-    scene.groups.emplace_back("all");
+    Scene scene = test::bare_scene();
     test::add_quad(scene, {0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}, 6, 6, 0);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 2; ++k) {

@@ -7,6 +7,7 @@
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
+#include "support/bare_scene.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -18,16 +19,9 @@ using namespace hemilux;
 
 namespace {
 
-Scene bare_scene() {
-    Scene scene;
-    scene.materials.emplace_back();
-    scene.groups.emplace_back("all");
-    return scene;
-}
-
 /// A floor beside a wall that hides a part of the sky.
 Scene floor_and_wall() {
-    Scene scene = bare_scene();
+    Scene scene = test::bare_scene();
     test::add_quad(scene, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 1, 1, 0);
     test::add_quad(scene, {1, -1, 0}, {1, -1, 1}, {1, 2, 1}, {1, 2, 0}, 1, 1, 0);
     return scene;
@@ -42,7 +36,7 @@ double sum_of(std::span<const OpenShare> shares) {
 
 /// A floor under a wide lid with a hole of 4 % of a square.
 Scene pinhole() {
-    Scene scene = bare_scene();
+    Scene scene = test::bare_scene();
     test::add_quad(scene, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 1, 1, 0);
     const double far = 300, low = .48, high = .52, z = 1;
     test::add_quad(scene, {-far, -far, z}, {-far, far, z}, {low, far, z}, {low, -far, z}, 1, 1, 0);
@@ -84,7 +78,7 @@ TEST_CASE("Tregenza's patches are 145 of about one size, and each holds its midd
 }
 
 TEST_CASE("Bands of a free sky have the closed form sin^2, within their errors") {
-    Scene scene = bare_scene();
+    Scene scene = test::bare_scene();
     test::add_quad(scene, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 1, 1, 0);
     const test::Model model(std::move(scene));
     const SkyBands sky = SkyBands::of_equal_steps(9, 2);

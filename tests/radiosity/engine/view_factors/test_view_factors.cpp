@@ -9,6 +9,7 @@
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
+#include "support/bare_scene.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -23,9 +24,7 @@ namespace {
 
 /// Blocks of different heights on a ground of 8 x 8 facets.
 Scene small_city() {
-    Scene scene;
-    scene.materials.emplace_back();
-    scene.groups.emplace_back("all");
+    Scene scene = test::bare_scene();
     test::add_quad(scene, {0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}, 8, 8, 0);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) {
@@ -147,9 +146,7 @@ TEST_CASE("A smaller error is asked for and reached") {
 }
 
 TEST_CASE("The escaped share is sky above and ground below") {
-    Scene scene;
-    scene.materials.emplace_back();
-    scene.groups.emplace_back("all");
+    Scene scene = test::bare_scene();
     test::add_quad(scene, {0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, 1, 1, 0);
     const test::Model model(std::move(scene));
     Monitor monitor;
@@ -165,9 +162,7 @@ TEST_CASE("The escaped share is sky above and ground below") {
 }
 
 TEST_CASE("What falls on backs is neither lost nor counted as sky") {
-    Scene scene;
-    scene.materials.emplace_back();
-    scene.groups.emplace_back("all");
+    Scene scene = test::bare_scene();
     test::add_quad(scene, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 1, 1, 0);
     test::add_quad(scene, {-9, -9, .1}, {9, -9, .1}, {9, 9, .1}, {-9, 9, .1}, 1, 1, 0); // its back
     const test::Model model(std::move(scene));
