@@ -69,6 +69,7 @@ const std::vector<std::string> rooms{
     "io/pictures",
     "io/rendering",
     "io/meshes",
+    "io/charts",
     "io/lightmaps",
     "io/gltf/document",
     "io/gltf",

@@ -33,7 +33,7 @@
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
 #include "app/terminal/unused_options.h"
-#include "io/lightmaps/charts.h"
+#include "io/charts/charts.h"
 #include "io/results/points.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/emitters/lit_by_points.h"

@@ -7,10 +7,10 @@
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "bvh/tracer.h"
+#include "io/charts/charts.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/files/text_words.h"
-#include "io/lightmaps/charts.h"
 #include "io/lightmaps/obj_places.h"
 #include "radiosity/paper/scene/mesh.h"
 

@@ -2,10 +2,10 @@
 // A glTF file that is read once more, to be written again with a lightmap: its texture coordinates,
 // and the numbers of its vertices.
 
+#include "io/charts/chart_regions.h"
 #include "io/files/outside_files.h"
 #include "io/gltf/elements.h"
 #include "io/gltf/primitives.h"
-#include "io/lightmaps/chart_regions.h"
 #include "io/lightmaps/file_places.h"
 #include "io/lightmaps/smooth_point.h"
 #include "io/lightmaps/texel_map.h"

@@ -1,7 +1,7 @@
 #pragma once
 // The light of a mesh as a picture over its charts.
 
-#include "io/lightmaps/charts.h"
+#include "io/charts/charts.h"
 #include "io/pictures/image.h"
 
 #include <span>

@@ -2,7 +2,7 @@
 // Where the facets of an OBJ file lie in a lightmap: in the texture coordinates of the file, or in
 // an atlas that becomes those of the same file.
 
-#include "io/lightmaps/chart_regions.h"
+#include "io/charts/chart_regions.h"
 #include "io/lightmaps/file_places.h"
 #include "io/lightmaps/smooth_point.h"
 #include "io/lightmaps/texel_map.h"

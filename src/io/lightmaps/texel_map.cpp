@@ -1,6 +1,6 @@
 #include "io/lightmaps/texel_map.h"
 
-#include "io/lightmaps/charts.h"
+#include "io/charts/charts.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>

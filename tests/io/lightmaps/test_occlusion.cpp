@@ -1,5 +1,5 @@
 // Ambient occlusion of texels: 1 minus view factors that are known in closed form.
-#include "io/lightmaps/charts.h"
+#include "io/charts/charts.h"
 #include "io/lightmaps/occlusion_gather.h"
 #include "parallel/workers.h"
 #include "radiosity/paper/scene/mesh.h"

@@ -1,6 +1,6 @@
 // A coarse sphere whose texels gather around the normals of the sphere that it stands for.
 #include "geometry/polygon.h"
-#include "io/lightmaps/charts.h"
+#include "io/charts/charts.h"
 #include "io/lightmaps/lightmap_gather.h"
 #include "io/lightmaps/occlusion_gather.h"
 #include "io/scene_files/emitter_shapes.h"

@@ -1,5 +1,5 @@
 // What texels of a lightmap show, which of them are covered, and the light that they get.
-#include "io/lightmaps/charts.h"
+#include "io/charts/charts.h"
 #include "io/lightmaps/covered_texels.h"
 #include "io/lightmaps/lightmap_gather.h"
 #include "parallel/workers.h"

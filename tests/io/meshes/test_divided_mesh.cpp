@@ -1,5 +1,5 @@
 // A mesh whose patches were divided differently is written without T-junctions.
-#include "io/lightmaps/charts.h"
+#include "io/charts/charts.h"
 #include "io/meshes/baked_light.h"
 #include "io/meshes/ply.h"
 #include "io/meshes/vtu.h"

@@ -1,7 +1,7 @@
-#include "io/lightmaps/charts.h"
+#include "io/charts/charts.h"
 
 #include "bvh/tracer.h"
-#include "io/lightmaps/rectangle_packing.h"
+#include "io/charts/rectangle_packing.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>

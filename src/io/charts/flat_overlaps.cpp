@@ -1,4 +1,4 @@
-#include "io/lightmaps/flat_overlaps.h"
+#include "io/charts/flat_overlaps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // (chart_regions.h), packed into a square.
 
 #include "geometry/vector.h"
-#include "io/lightmaps/chart_regions.h"
+#include "io/charts/chart_regions.h"
 #include "io/results/smooth.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The charts of a lightmap of our own: how surfaces are laid flat, and how densely they are packed.
-#include "io/lightmaps/charts.h"
-#include "io/lightmaps/flat_overlaps.h"
-#include "io/lightmaps/rectangle_packing.h"
+#include "io/charts/charts.h"
+#include "io/charts/flat_overlaps.h"
+#include "io/charts/rectangle_packing.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"

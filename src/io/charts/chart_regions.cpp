@@ -1,8 +1,8 @@
-#include "io/lightmaps/chart_regions.h"
+#include "io/charts/chart_regions.h"
 
 #include "bvh/tracer.h"
 #include "geometry/frame.h"
-#include "io/lightmaps/flat_overlaps.h"
+#include "io/charts/flat_overlaps.h"
 #include "radiosity/engine/needs/welded_edges.h"
 #include "radiosity/paper/scene/mesh.h"
 

@@ -1,4 +1,4 @@
-#include "io/lightmaps/rectangle_packing.h"
+#include "io/charts/rectangle_packing.h"
 
 #include <algorithm>
 #include <cstddef>
