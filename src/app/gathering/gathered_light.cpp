@@ -11,6 +11,7 @@
 #include "io/files/error.h"
 #include "io/lightmaps/covered_texels.h"
 #include "io/lightmaps/lightmap_gather.h"
+#include "io/lightmaps/lightmap_target.h"
 #include "io/rendering/picture_error.h"
 #include "io/rendering/picture_parts.h"
 #include "io/rendering/render.h"
@@ -145,9 +146,10 @@ ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t see
 
 /// Gathers by so many rays at a point, and has what was given out judged. gather(rays, round,
 /// alone) returns the light by a round of rays of its own. Where the error is too large, it is
-/// gathered by as many rays once more, and the mean of both is given out; then again with twice as
-/// many rays as there were. Once that does not help, each place at which light changes fast gathers
-/// by itself: then most of the error lies between the points of the grid, as in small pictures.
+/// gathered by as many rays once more, and the mean of both is given out; then in the same way with
+/// twice as many rays as there were. Once that does not help, each place at which light changes
+/// fast gathers by itself: then most of the error lies between the points of the grid, as in small
+/// pictures.
 /// Where the error itself is asked for, more pixels are judged.
 template <class Gather>
 Errors Gathering::gather_until_right(const std::string& what, const ReadError& read, Image& shown,
@@ -177,7 +179,7 @@ Errors Gathering::gather_until_right(const std::string& what, const ReadError& r
             const Stopwatch watch;
             Image light = gather(rays, round, alone);
             errors.rays = rays;
-            if (round == 1) {
+            if (round % 2 == 1) {
                 average(light, shown);
                 errors.rays *= 2;
             }
@@ -202,7 +204,7 @@ Errors Gathering::gather_until_right(const std::string& what, const ReadError& r
         if (errors.noise > helps * before && std::exchange(alone, true))
             break;
         before = errors.noise;
-        rays = round == 0 ? errors.rays : 2 * errors.rays;
+        rays = round % 2 == 0 ? errors.rays : 2 * errors.rays;
     }
     const double accuracy = settings_.error_accuracy;
     for (std::uint64_t more = 4 * judged;
@@ -310,7 +312,7 @@ void Gathering::find_picture(const Camera& camera) {
     gather_until_right(
         "picture", read, picture,
         [&](unsigned of_point, unsigned round, bool alone) {
-            options.gathers_coarse = alone;
+            options.coarse_rays = alone ? 4 * of_point : 0;
             options.gather = of_point;
             options.gather_round = round;
             return render_view(scene_, camera, options);

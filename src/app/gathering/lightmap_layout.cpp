@@ -139,9 +139,11 @@ class LayoutFinder {
 
 /// One lightmap at a time is gathered, and all are kept until they are written.
 void LayoutFinder::add_to_memory(int size) {
-    bytes_ += bytes_of_lightmap(size, false);
+    const unsigned threads = settings_.options.threads;
+    bytes_ += bytes_of_lightmap(size, false, threads);
     largest_ = std::max(largest_, size);
-    const double gathered = bytes_of_lightmap(largest_, true) - bytes_of_lightmap(largest_, false);
+    const double gathered =
+        bytes_of_lightmap(largest_, true, threads) - bytes_of_lightmap(largest_, false, threads);
     const std::optional<std::uint64_t>& limit = settings_.scene.memory;
     if (limit && bytes_ + gathered > double(*limit))
         throw std::runtime_error("a lightmap of " + std::to_string(size) + " x " +

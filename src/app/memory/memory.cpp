@@ -195,20 +195,30 @@ SolveOptions with_memory(SolveOptions options, const SceneSettings& scene, doubl
     return options;
 }
 
+namespace {
+
+/// The bytes of the rows around those that are finished.
+double bytes_of_rows(double width, double height, unsigned threads) {
+    return bytes_per_pixel_of_rows * width *
+           std::min(height, rows_per_thread * Workers(threads).threads());
+}
+
+} // namespace
+
 double bytes_of_picture(PixelSize size, bool gathered, unsigned threads) {
     const double width = size.width, height = size.height;
-    const double rows = std::min(height, rows_per_thread * Workers(threads).threads());
     return bytes_per_pixel * width * height +
            (gathered
-                ? bytes_per_gathered_pixel * width * height + bytes_per_pixel_of_rows * width * rows
+                ? bytes_per_gathered_pixel * width * height + bytes_of_rows(width, height, threads)
                 : 0);
 }
 
-double bytes_of_lightmap(int size, bool gathered) {
+double bytes_of_lightmap(int size, bool gathered, unsigned threads) {
     // What a texel shows, and the picture and its files; its share of a point that gathers, its
     // light.
     constexpr double per_texel = 16 + 36, per_gathered_texel = 64 + 16;
-    return (per_texel + (gathered ? per_gathered_texel : 0)) * size * size;
+    return per_texel * size * size +
+           (gathered ? per_gathered_texel * size * size + bytes_of_rows(size, size, threads) : 0);
 }
 
 double bytes_of_points(std::size_t points, unsigned gather) {
@@ -220,7 +230,8 @@ double bytes_of_points(std::size_t points, unsigned gather) {
 }
 
 double bytes_of_results(const SolveSettings& settings, double patches) {
-    double bytes = bytes_of_lightmap(settings.lightmap.value_or(0), settings.gather_pictures);
+    double bytes = bytes_of_lightmap(settings.lightmap.value_or(0), settings.gather_pictures,
+                                     settings.options.threads);
     bool has_picture = !settings.error_map.empty(), has_layers = false;
     for (const Output& output : settings.outputs) {
         has_picture |= is_picture(output.kind);

@@ -57,7 +57,7 @@ struct MemoryNeed {
 [[nodiscard]] double bytes_of_picture(PixelSize size, bool gathered, unsigned threads);
 [[nodiscard]] double bytes_of_compared_pictures(PixelSize size);
 /// Returns the bytes of a lightmap with so many texels along a side, while it is made and written.
-[[nodiscard]] double bytes_of_lightmap(int size, bool gathered);
+[[nodiscard]] double bytes_of_lightmap(int size, bool gathered, unsigned threads);
 /// Returns the bytes of so many points of --points, while their light is gathered and written.
 [[nodiscard]] double bytes_of_points(std::size_t points, unsigned gather);
 /// What a layer of --layers has light of.

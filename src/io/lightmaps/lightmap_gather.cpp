@@ -1,13 +1,15 @@
 #include "io/lightmaps/lightmap_gather.h"
 
+#include "io/rendering/direct_window.h"
 #include "io/rendering/picture_gather.h"
+#include "io/rendering/row_windows.h"
+#include "io/rendering/slow_light_fit.h"
 #include "parallel/workers.h"
-#include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace hemilux {
@@ -45,22 +47,135 @@ GatherGrid grid_of(const TexelMap& texels, const std::vector<bool>& covered,
     return {columns, columns, std::move(points)};
 }
 
-/// Returns the irradiance of a place: the share of direct light that arrives is that of its own
-/// shadow rays. An average over texels around, as pictures take, would move shadows by texels.
-Vec3 irradiance_of(const PictureGather::Light& light) {
-    Vec3 irradiance = Vec3(light.slow.indirect) + light.of_points;
-    for (int c = 0; c < 3; ++c)
-        if (light.direct.unshadowed[c] > 0)
-            irradiance[c] += double(light.slow.unshadowed[c]) *
-                             (light.direct.arriving[c] / light.direct.unshadowed[c]);
-    return irradiance;
+/// Texels that gather by themselves share it up to this many steps, whatever is near.
+constexpr float least_reach = 1.6f;
+
+/// What was gathered at a texel.
+struct TexelLight {
+    std::uint32_t chart = none; ///< none: it was not gathered
+    bool is_raised = false;     ///< SurfacePoint::is_raised
+    glm::vec3 position, normal;
+    SlowLight slow;
+    glm::vec3 direct, unshadowed; ///< by its own shadow rays
+    glm::vec3 of_points;
+    float reach = 0; ///< PictureGather::Light::reach
+
+    [[nodiscard]] bool is_beside(const TexelLight& other) const {
+        return chart == other.chart && is_same_surface(Vec3(position), Vec3(normal),
+                                                       Vec3(other.position), Vec3(other.normal));
+    }
+};
+
+class TexelGather {
+  public:
+    TexelGather(const TexelMap& texels, const std::vector<bool>& covered,
+                const PictureGather& gather)
+        : texels_(texels), covered_(covered), gather_(gather),
+          rows_(static_cast<std::size_t>(texels.size())) {}
+
+    /// Calls add(texel, irradiance) for each texel that is not covered, in several threads.
+    template <class Add>
+    void run(const std::function<void()>& check, const Workers& workers, const Add& add);
+
+  private:
+    using Row = std::vector<TexelLight>;
+    [[nodiscard]] Row& row(int y) { return rows_[static_cast<std::size_t>(y)]; }
+    void gather_rows(int first, int end);
+    [[nodiscard]] glm::vec3 irradiance(int x, int y) const;
+
+    const TexelMap& texels_;
+    const std::vector<bool>& covered_;
+    const PictureGather& gather_;
+    std::vector<Row> rows_; ///< empty before they are gathered, and once no window reaches them
+};
+
+template <class Add>
+void TexelGather::run(const std::function<void()>& check, const Workers& workers, const Add& add) {
+    constexpr std::size_t rows_at_a_time = 4;
+    const auto in_threads = [&](int first, int end, const auto& work) {
+        workers.for_chunks(static_cast<std::size_t>(end - first), rows_at_a_time,
+                           [&](std::size_t begin, std::size_t past) {
+                               check();
+                               work(first + static_cast<int>(begin),
+                                    first + static_cast<int>(past));
+                           });
+    };
+    for_row_windows(
+        texels_.size(), 8 * static_cast<int>(rows_at_a_time * workers.threads()),
+        DirectWindow::reach,
+        [&](int from, int to) {
+            in_threads(from, to, [&](int first, int end) { gather_rows(first, end); });
+        },
+        [&](int from, int to) {
+            in_threads(from, to, [&](int first, int end) {
+                for (int y = first; y < end; ++y)
+                    for (int x = 0; x < texels_.size(); ++x)
+                        if (row(y)[static_cast<std::size_t>(x)].chart != none)
+                            add(texels_.index(x, y), irradiance(x, y));
+            });
+        },
+        [&](int y) { row(y) = {}; });
 }
 
-/// Returns what of the irradiance at a texel counts.
-Vec3 factor_of(const Mesh& mesh, const SurfacePoint& at, Bake bake) {
-    return bake == Bake::radiosity
-               ? colours_at(mesh, mesh.patches()[at.patch], at.position).reflectance
-               : Vec3(1.0);
+void TexelGather::gather_rows(int first, int end) {
+    std::vector<PictureGather::Place> places;
+    std::vector<TexelLight*> which;
+    for (int y = first; y < end; ++y) {
+        row(y).resize(static_cast<std::size_t>(texels_.size()));
+        for (int x = 0; x < texels_.size(); ++x) {
+            const std::size_t texel = texels_.index(x, y);
+            if (!texels_.shows(texel) || covered_[texel])
+                continue;
+            const std::uint32_t chart = texels_.triangle(texel).chart;
+            places.push_back({texels_.receiver(texel), Vec2(x + .5, y + .5), 0, 1, chart});
+            which.push_back(&row(y)[static_cast<std::size_t>(x)]);
+        }
+    }
+    const std::vector<PictureGather::Light> lights = gather_.irradiance(places);
+    for (std::size_t k = 0; k < which.size(); ++k) {
+        const SurfacePoint& at = places[k].at;
+        const auto& [direct, slow, of_points, reach] = lights[k];
+        *which[k] = {.chart = places[k].part,
+                     .is_raised = at.is_raised,
+                     .position = glm::vec3(at.position),
+                     .normal = glm::vec3(at.normal),
+                     .slow = slow,
+                     .direct = glm::vec3(direct.arriving),
+                     .unshadowed = glm::vec3(direct.unshadowed),
+                     .of_points = glm::vec3(of_points),
+                     .reach = float(reach)};
+    }
+}
+
+/// Returns what arrives at a texel, by what was found there and at the texels around.
+glm::vec3 TexelGather::irradiance(int x, int y) const {
+    constexpr int reach = DirectWindow::reach;
+    const TexelLight& here = rows_[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
+    DirectWindow direct(gather_.shadow_rays());
+    SlowLightFit slow(here.slow);
+    for (int beside = std::max(y - reach, 0); beside <= std::min(y + reach, texels_.size() - 1);
+         ++beside)
+        for (int column = std::max(x - reach, 0); column <= std::min(x + reach, texels_.size() - 1);
+             ++column) {
+            const TexelLight& there =
+                rows_[static_cast<std::size_t>(beside)][static_cast<std::size_t>(column)];
+            if (!here.is_beside(there))
+                continue;
+            const int dx = column - x, dy = beside - y;
+            const float weight = DirectWindow::weight_at(dx, dy);
+            direct.add(dx, dy, there.direct, there.unshadowed, weight);
+            if (!(here.reach > 0) || &there == &here)
+                continue;
+            const glm::vec3 way = (there.position - here.position) / here.reach;
+            const float steps = float(dx * dx + dy * dy) / (least_reach * least_reach),
+                        near = 1 - std::min(glm::dot(way, way), steps);
+            if (near > 0)
+                slow.add({dx, dy}, there.slow, double(weight * near));
+        }
+    const auto [unshadowed, indirect] = slow.solve().light;
+    const float own = here.is_raised ? 1 : direct.share_of_own();
+    return indirect + here.of_points +
+           direct.arriving_of(unshadowed, own, here.direct, here.unshadowed);
 }
 
 } // namespace
@@ -73,45 +188,26 @@ Vec3 radiosity_of(const Mesh& mesh, const SurfacePoint& at, const Vec3& irradian
 GatheredLightmap gather_lightmap(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
                                  const TexelMap& texels, const std::vector<bool>& covered,
                                  const LightmapOptions& options, const Workers& workers) {
-    constexpr std::size_t rows_at_a_time = 4;
     const PictureGather gather(mesh, tracer, light, grid_of(texels, covered, workers),
                                {.rays = options.rays,
+                                .shadow_rays = 2 * options.rays, // edges are few and sharp
                                 .samples = 1,
                                 .round = options.round,
-                                .gathers_coarse = true,
+                                .coarse_rays = options.rays,
                                 .only_reflected = options.bake == Bake::indirect,
                                 .check = options.check},
                                workers);
-    const int size = texels.size();
-    GatheredLightmap lightmap{Image(size, size), std::vector<bool>(texels.count())};
+    GatheredLightmap lightmap{Image(texels.size(), texels.size()),
+                              std::vector<bool>(texels.count())};
     for (std::size_t k = 0; k < lightmap.known.size(); ++k)
         lightmap.known[k] = texels.shows(k) && !covered[k];
-    const auto gather_rows = [&](int first, int end) {
-        std::vector<PictureGather::Place> places;
-        std::vector<std::size_t> which;
-        for (int y = first; y < end; ++y)
-            for (int x = 0; x < size; ++x) {
-                const std::size_t texel = texels.index(x, y);
-                if (!lightmap.known[texel])
-                    continue;
-                places.push_back({texels.receiver(texel), Vec2(x + .5, y + .5), 0, 1,
-                                  texels.triangle(texel).chart});
-                which.push_back(texel);
-            }
-        const std::vector<PictureGather::Light> lights = gather.irradiance(places);
-        for (std::size_t k = 0; k < which.size(); ++k) {
-            const Vec3 irradiance = irradiance_of(lights[k]);
-            lightmap.image.pixels[which[k]] =
-                glm::vec3(options.bake == Bake::radiosity
-                              ? radiosity_of(mesh, texels.point(which[k]), irradiance)
-                              : irradiance);
-        }
-    };
-    workers.for_chunks(static_cast<std::size_t>(size), rows_at_a_time,
-                       [&](std::size_t begin, std::size_t end) {
-                           options.check();
-                           gather_rows(static_cast<int>(begin), static_cast<int>(end));
-                       });
+    TexelGather(texels, covered, gather)
+        .run(options.check, workers, [&](std::size_t texel, const glm::vec3& irradiance) {
+            lightmap.image.pixels[texel] =
+                options.bake == Bake::radiosity
+                    ? glm::vec3(radiosity_of(mesh, texels.point(texel), Vec3(irradiance)))
+                    : irradiance;
+        });
     return lightmap;
 }
 
@@ -187,86 +283,6 @@ void fill_texels(GatheredLightmap& lightmap, const TexelMap& texels, int margin)
         }
         open = std::move(left);
     }
-}
-
-std::vector<TargetPart> lightmap_parts(const Mesh& mesh, const TexelMap& texels,
-                                       const std::vector<bool>& covered, Bake bake,
-                                       std::uint64_t seed) {
-    constexpr double parts = 512;
-    constexpr int places = 16;
-    constexpr double reach = 4; // [texels]
-    std::vector<std::size_t> shown;
-    for (std::size_t k = 0; k < texels.count(); ++k)
-        if (texels.shows(k) && texels.is_inside(k) && !covered[k] &&
-            (bake != Bake::radiosity ||
-             mesh.material(texels.point(k).patch).reflectance != Vec3(0.0)))
-            shown.push_back(k);
-    std::vector<TargetPart> all;
-    const double each = std::max(1.0, double(shown.size()) / parts);
-    const auto size = static_cast<std::size_t>(texels.size());
-    for (double next = 0; next < double(shown.size()); next += each) {
-        Rng rng(hash_words({seed, all.size()}));
-        const std::size_t first = shown[std::min(
-            static_cast<std::size_t>(next + rng.uniform() * each), shown.size() - 1)];
-        const SurfacePoint middle = texels.point(first);
-        TargetPart& part = all.emplace_back();
-        for (int k = 0; k < places; ++k) {
-            const double dx = rng.uniform() - .5, dy = rng.uniform() - .5;
-            const int x = static_cast<int>(first % size) + (k > 0 ? int(2 * reach * dx) : 0),
-                      y = static_cast<int>(first / size) + (k > 0 ? int(2 * reach * dy) : 0);
-            if (x < 0 || y < 0 || x >= texels.size() || y >= texels.size())
-                continue;
-            const std::size_t texel = texels.index(x, y);
-            if (!texels.shows(texel) || covered[texel])
-                continue;
-            const SurfacePoint at = texels.point(texel);
-            if (at.facet != middle.facet || at.normal != middle.normal)
-                continue;
-            part.points.push_back(at);
-            part.reflectance.push_back(factor_of(mesh, at, bake));
-        }
-    }
-    return all;
-}
-
-namespace {
-
-std::vector<JudgedPixel> judged_texels(const Mesh& mesh, const TexelMap& texels,
-                                       const std::vector<bool>& covered, Bake bake,
-                                       std::size_t count, std::uint64_t seed) {
-    std::vector<std::size_t> shown;
-    for (std::size_t k = 0; k < texels.count(); ++k)
-        if (texels.shows(k) && !covered[k] && texels.is_inside(k))
-            shown.push_back(k);
-    Rng rng(seed);
-    std::vector<JudgedPixel> judged;
-    const double each = std::max(1.0, double(shown.size()) / double(count));
-    for (double next = 0; next < double(shown.size()); next += each) {
-        const std::size_t texel = shown[std::min(
-            static_cast<std::size_t>(next + rng.uniform() * each), shown.size() - 1)];
-        const SurfacePoint at = texels.point(texel);
-        Colours colours{Vec3(1.0), Vec3(0.0)};
-        if (bake == Bake::radiosity)
-            colours = colours_at(mesh, mesh.patches()[at.patch], at.position);
-        if (colours.reflectance != Vec3(0.0))
-            judged.push_back({texel, {{texels.receiver(texel), colours}}});
-    }
-    return judged;
-}
-
-} // namespace
-
-PictureJudge judge_of_lightmaps(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
-                                const TexelMap& texels, const std::vector<bool>& covered, Bake bake,
-                                std::uint64_t seed) {
-    return {mesh,
-            tracer,
-            light,
-            [&mesh, &texels, &covered, bake](std::size_t count, std::uint64_t of) {
-                return judged_texels(mesh, texels, covered, bake, count, of);
-            },
-            seed,
-            bake == Bake::indirect};
 }
 
 } // namespace hemilux

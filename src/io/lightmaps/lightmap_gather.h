@@ -1,15 +1,13 @@
 #pragma once
 // The light of a lightmap, gathered as pictures are (picture_gather.h), at the points that texels
-// show.
+// show. Texels are large: where light changes faster than the points of the grid are close
+// together, each gathers by itself, and those of a surface share what they found.
 
 #include "io/lightmaps/texel_map.h"
 #include "io/meshes/baked_light.h"
 #include "io/pictures/image.h"
-#include "io/rendering/picture_error.h"
-#include "radiosity/light/cached_light/light_cache.h"
 #include "radiosity/light/cached_light/surface_light.h"
 
-#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -48,16 +46,5 @@ struct GatheredLightmap {
 /// Fills unknown texels from the nearest known ones: covered ones of a chart from the same chart,
 /// and up to `margin` texels around charts.
 void fill_texels(GatheredLightmap& lightmap, const TexelMap& texels, int margin);
-
-/// Returns parts of the lightmap for which its light is learned, spread evenly over its texels.
-[[nodiscard]] std::vector<TargetPart> lightmap_parts(const Mesh& mesh, const TexelMap& texels,
-                                                     const std::vector<bool>& covered, Bake bake,
-                                                     std::uint64_t seed);
-
-/// Returns the judge of lightmaps by texels that are not covered.
-[[nodiscard]] PictureJudge judge_of_lightmaps(const Mesh& mesh, const Tracer& tracer,
-                                              const SurfaceLight& light, const TexelMap& texels,
-                                              const std::vector<bool>& covered, Bake bake,
-                                              std::uint64_t seed);
 
 } // namespace hemilux

@@ -1,7 +1,8 @@
 #include "io/rendering/gathered_picture.h"
 
-#include "io/rendering/linear_fit.h"
+#include "io/rendering/direct_window.h"
 #include "io/rendering/pixel_colours.h"
+#include "io/rendering/row_windows.h"
 #include "parallel/workers.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -12,44 +13,6 @@
 
 namespace hemilux {
 namespace {
-
-/// The weights of the pixels along a window. Those at both ends count half, so that the rays of a
-/// window together are well distributed.
-constexpr std::array<float, 5> window{.5f, 1, 1, 1, .5f};
-constexpr int half_window = 2;
-
-float weight_at(int step) {
-    return window[static_cast<std::size_t>(std::ptrdiff_t{step} + half_window)];
-}
-
-/// The share of the direct light that arrives in the pixels of a window.
-class ShareAround {
-  public:
-    /// `rays` are the shadow rays of a pixel.
-    explicit ShareAround(unsigned rays) : rays_(rays) {}
-
-    void add(int dx, int dy, const glm::vec3& arriving, const glm::vec3& unshadowed, float weight) {
-        const float all = unshadowed.x + unshadowed.y + unshadowed.z;
-        if (all > 0)
-            fit_.add({dx, dy}, double((arriving.x + arriving.y + arriving.z) / all),
-                     double(weight));
-    }
-
-    /// Returns the weight of a pixel's own share beside the mean of the window, by the variance of
-    /// both (Lee 1980): 1 at a sharp edge, where all rays of most pixels agree; 0 where the share
-    /// changes slowly.
-    [[nodiscard]] float share_of_own() const {
-        if (!(fit_.weight() > 0) || rays_ < 2)
-            return 0;
-        const double noise = std::max(fit_.mean() - fit_.mean_square(), 0.0) / (rays_ - 1),
-                     signal = fit_.variance() - noise;
-        return signal > 0 ? float(signal / (signal + noise)) : 0;
-    }
-
-  private:
-    unsigned rays_;
-    LinearFit fit_;
-};
 
 class GatheredPicture {
   public:
@@ -92,29 +55,26 @@ class GatheredPicture {
     std::vector<Row> rows_; ///< empty before a row is gathered, and once no window reaches it
 };
 
-/// Gathers some bands, and adds the direct light of the rows whose windows are known then. Few rows
-/// are kept at a time.
+/// Gathers some bands, and adds the direct light of the rows whose windows are known then.
 Image GatheredPicture::render(const std::function<void()>& check, const Workers& workers) {
-    const int bands_at_once = 4 * static_cast<int>(workers.threads());
-    int lit = 0; // so many rows have their direct light
-    for (int from = 0; from < visible_.bands(); from += bands_at_once) {
-        const int to = std::min(from + bands_at_once, visible_.bands());
-        visible_.for_bands(from, to, workers, check,
-                           [&](const VisibleFacets::Band& band, int first, int end) {
-                               gather_band(band, first, end);
-                           });
-        const int known = to == visible_.bands() ? image_.height
-                                                 : to * VisibleFacets::rows_per_band - half_window;
-        workers.for_chunks(static_cast<std::size_t>(known - lit), 8,
-                           [&](std::size_t begin, std::size_t end) {
-                               check();
-                               for (std::size_t k = begin; k < end; ++k)
-                                   add_direct_light(lit + static_cast<int>(k));
-                           });
-        for (int y = std::max(lit - half_window, 0); y < known - half_window; ++y)
-            row(y) = {};
-        lit = known;
-    }
+    constexpr int rows_of_band = VisibleFacets::rows_per_band;
+    for_row_windows(
+        image_.height, 4 * static_cast<int>(workers.threads()) * rows_of_band, DirectWindow::reach,
+        [&](int from, int to) {
+            visible_.for_bands(from / rows_of_band, (to + rows_of_band - 1) / rows_of_band, workers,
+                               check, [&](const VisibleFacets::Band& band, int first, int end) {
+                                   gather_band(band, first, end);
+                               });
+        },
+        [&](int first, int end) {
+            workers.for_chunks(static_cast<std::size_t>(end - first), 8,
+                               [&](std::size_t begin, std::size_t past) {
+                                   check();
+                                   for (std::size_t k = begin; k < past; ++k)
+                                       add_direct_light(first + static_cast<int>(k));
+                               });
+        },
+        [&](int y) { row(y) = {}; });
     return std::move(image_);
 }
 
@@ -159,7 +119,7 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first, in
     const std::vector<PictureGather::Light> lights = gather_.irradiance(places);
     for (std::size_t k = 0; k < shown.size(); ++k) {
         const auto& [x, y, patch, colours] = shown[k];
-        const auto& [direct, slow, of_points] = lights[k];
+        const auto& [direct, slow, of_points, reach] = lights[k];
         const glm::vec3 reflectance(colours.reflectance);
         const Part part{.position = glm::vec3(places[k].at.position),
                         .direct = glm::vec3(direct.arriving),
@@ -179,23 +139,20 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first, in
 /// Returns the direct light that a part of pixel (x, y) reflects. Parts of other pixels count only
 /// for a part of a pixel: a strip narrower than a pixel shows nothing else.
 glm::vec3 GatheredPicture::direct_light(const Part& part, int x, int y) const {
+    constexpr int reach = DirectWindow::reach;
     const Vec3& normal = mesh_.patches()[part.patch].normal;
-    glm::vec3 arriving(0.0f), unshadowed(0.0f);
-    ShareAround around(gather_.shadow_rays());
+    DirectWindow window(gather_.shadow_rays());
     const auto add = [&](const Part& from, int dx, int dy) {
         if (from.share == 0 || (from.patch != part.patch &&
                                 !is_same_surface(Vec3(part.position), normal, Vec3(from.position),
                                                  mesh_.patches()[from.patch].normal)))
             return;
-        const float weight = weight_at(dx) * weight_at(dy) * from.share;
-        arriving += weight * from.direct;
-        unshadowed += weight * from.unshadowed;
-        around.add(dx, dy, from.direct, from.unshadowed, weight);
+        window.add(dx, dy, from.direct, from.unshadowed,
+                   DirectWindow::weight_at(dx, dy) * from.share);
     };
-    const int left = std::max(x - half_window, 0),
-              right = std::min(x + half_window, image_.width - 1);
-    for (int beside = std::max(y - half_window, 0);
-         beside <= std::min(y + half_window, image_.height - 1); ++beside) {
+    const int left = std::max(x - reach, 0), right = std::min(x + reach, image_.width - 1);
+    for (int beside = std::max(y - reach, 0); beside <= std::min(y + reach, image_.height - 1);
+         ++beside) {
         const auto& [whole, parts] = row(beside);
         for (int column = left; column <= right; ++column)
             add(whole[static_cast<std::size_t>(column)], column - x, beside - y);
@@ -205,16 +162,8 @@ glm::vec3 GatheredPicture::direct_light(const Part& part, int x, int y) const {
              there != parts.end() && there->x <= right; ++there)
             add(there->part, there->x - x, beside - y);
     }
-    const float own = part.share == 1 ? around.share_of_own() : 0;
-    glm::vec3 light(0.0f);
-    for (int c = 0; c < 3; ++c) {
-        if (unshadowed[c] > 0)
-            light[c] = part.reflected[c] * (arriving[c] / unshadowed[c]);
-        if (own > 0 && part.unshadowed[c] > 0)
-            light[c] +=
-                own * (part.reflected[c] * (part.direct[c] / part.unshadowed[c]) - light[c]);
-    }
-    return light;
+    const float own = part.share == 1 ? window.share_of_own() : 0;
+    return window.arriving_of(part.reflected, own, part.direct, part.unshadowed);
 }
 
 } // namespace

@@ -135,7 +135,8 @@ void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& 
 /// over. They also help where few rays find most of the light, as that of a sky through a window.
 unsigned PictureGather::more_rays(int x, int y) const {
     const GridPoint& here = *grid_.point(x, y);
-    if (grid_.spacing(x, y) == 0 || here.is_coarse || here.noise > noise_for_many)
+    const bool is_coarse = here.is_coarse && options_.coarse_rays == 0;
+    if (grid_.spacing(x, y) == 0 || is_coarse || here.noise > noise_for_many)
         return 4 * options_.rays;
     return here.noise > noise_for_more ? options_.rays : 0;
 }
@@ -162,17 +163,19 @@ std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Plac
     for (std::size_t k = 0; k < places.size(); ++k) {
         const Place& place = places[k];
         const int x = static_cast<int>(place.pixel.x), y = static_cast<int>(place.pixel.y);
-        auto& [direct, slow, of_points] = found[k];
+        auto& [direct, slow, of_points, reach] = found[k];
         all.add(k, place.at, samples_of(x, y, of_pixel));
         std::optional<SlowLightField::Around> around =
             light_.interpolate(place.at, place.pixel, place.part);
-        if (options_.gathers_coarse && around && around->is_coarse)
-            around.reset();
-        if (around)
+        const bool by_itself = !around || (options_.coarse_rays > 0 && around->is_coarse);
+        if (!by_itself) {
             slow = around->light;
-        else
-            alone.add(k, place.at, samples_of(x, y, 4 * options_.rays));
-        if (around && !place.at.is_raised &&
+        } else {
+            alone.add(k, place.at,
+                      samples_of(x, y, around ? options_.coarse_rays : 4 * options_.rays));
+            reach = around ? around->reach : 0;
+        }
+        if (!by_itself && !place.at.is_raised &&
             (around->shadow == none_blocked || around->shadow == all_blocked)) {
             direct.unshadowed = Vec3(slow.unshadowed);
             direct.arriving = around->shadow == none_blocked ? direct.unshadowed : Vec3(0.0);

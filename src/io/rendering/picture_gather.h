@@ -26,14 +26,15 @@ namespace hemilux {
 
 struct PictureGatherOptions {
     /// The cosine-distributed rays of a point. It takes a quarter of them where it has many
-    /// neighbours to average over, and up to about four times as many where it has few. A pixel at
-    /// the edge of a shadow takes half as many shadow rays. Four times as many halve the noise.
+    /// neighbours to average over, and up to about four times as many where it has few. Four times
+    /// as many halve the noise.
     unsigned rays = 16;
-    unsigned samples = 4; ///< of a pixel
-    unsigned round = 0;   ///< the errors of rounds by the rays are independent
+    unsigned shadow_rays = 8; ///< of a pixel at the edge of a shadow
+    unsigned samples = 4;     ///< of a pixel
+    unsigned round = 0;       ///< the errors of rounds by the rays are independent
     /// Where light changes faster than the points of the grid are close together, each place
-    /// gathers by itself: pictures are smooth there, which texels of a lightmap are too large for.
-    bool gathers_coarse = false;
+    /// gathers by so many rays of its own. 0: it reads the grid, so that pictures are smooth there.
+    unsigned coarse_rays = 0;
     bool only_reflected = false;         ///< nothing that arrives straight from emitters
     std::function<void()> check = [] {}; ///< may throw to end it; is called by several threads
 };
@@ -61,6 +62,9 @@ class PictureGather {
         EmitterLight direct;
         SlowLight slow;
         Vec3 of_points{0.0}; ///< from lights without extent, as it arrives at the place
+        /// The distance within which places that gathered slow light by themselves may share it, in
+        /// local units; 0 where the grid was read, and where no point of it is around.
+        double reach = 0;
     };
     /// Returns the light at each place. Several threads may call it.
     [[nodiscard]] std::vector<Light> irradiance(std::span<const Place> places) const;
@@ -73,7 +77,7 @@ class PictureGather {
     void gather(const Rays& rays_at, Shadows shadows, const Workers& workers);
     [[nodiscard]] unsigned more_rays(int x, int y) const;
     [[nodiscard]] unsigned of_sample() const {
-        return std::max(1u, options_.rays / ((options_.gathers_coarse ? 1 : 2) * options_.samples));
+        return std::max(1u, options_.shadow_rays / options_.samples);
     }
     void judge_points(const Workers& workers);
 

@@ -175,9 +175,10 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
         mesh, tracer, SurfaceLight(mesh, PatchLight(radiosity, options.slope), options.cells), rays,
         options.width, options.height,
         {.rays = options.gather,
+         .shadow_rays = options.coarse_rays > 0 ? options.gather : options.gather / 2,
          .samples = samples,
          .round = options.gather_round,
-         .gathers_coarse = options.gathers_coarse,
+         .coarse_rays = options.coarse_rays,
          .check = check},
         Workers(options.threads));
     return behind_panes(gathered_picture(mesh, visible, gather, offsets, options.width,

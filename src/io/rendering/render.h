@@ -24,9 +24,8 @@ struct RenderOptions {
     /// The number of rays that gather the light at points once more (picture_gather.h). Shadows are
     /// then at their places, for many times the time. 0: the patches' light is shown.
     unsigned gather = 0;
-    unsigned gather_round = 0; ///< PictureGatherOptions::round
-    /// Where light changes from pixel to pixel, each place gathers by itself.
-    bool gathers_coarse = false;
+    unsigned gather_round = 0;              ///< PictureGatherOptions::round
+    unsigned coarse_rays = 0;               ///< PictureGatherOptions::coarse_rays
     unsigned threads = 0;                   ///< 0: one per core. The picture does not depend on it
     const CornerClasses* classes = nullptr; ///< of the mesh, where they are known already
     std::span<const Slope> slope = {};      ///< of the patches' light; empty: none

@@ -1,6 +1,7 @@
 #include "io/rendering/slow_light.h"
 
 #include "io/rendering/linear_fit.h"
+#include "io/rendering/slow_light_fit.h"
 #include "radiosity/paper/rays/shot.h"
 
 #include <algorithm>
@@ -30,42 +31,6 @@ double weight_of(const GridPoint& here, const GridPoint* there, double most) {
         std::min(double(std::max(here.nearness, there->nearness)) / reach_share, most);
     return 1 - share * share * glm::dot(way, way);
 }
-
-/// A linear function of steps from a point, by weighted least squares.
-struct Fit {
-    double n = 1;
-    Vec2 mean{0.0}, squares{.5}; ///< not 0, so that a few points do not say much of a slope
-    double product = 0;
-    SlowLight sum, by_x, by_y;
-
-    void add(const Vec2& offset, const SlowLight& light, double weight) {
-        n += weight;
-        mean += weight * offset;
-        squares += weight * offset * offset;
-        product += weight * offset.x * offset.y;
-        sum.add(light, float(weight));
-        by_x.add(light, float(weight * offset.x));
-        by_y.add(light, float(weight * offset.y));
-    }
-    /// Turns the sums into the function: its slope, and its value at the point, in `sum`.
-    void solve(std::array<SlowLight, 2>& slope) {
-        mean /= n;
-        squares -= n * mean * mean;
-        product -= n * mean.x * mean.y;
-        by_x.add(sum, float(-mean.x));
-        by_y.add(sum, float(-mean.y));
-        const double determinant = squares.x * squares.y - product * product;
-        slope = {};
-        slope[0].add(by_x, float(squares.y / determinant));
-        slope[0].add(by_y, float(-product / determinant));
-        slope[1].add(by_y, float(squares.x / determinant));
-        slope[1].add(by_x, float(-product / determinant));
-        sum = {sum.unshadowed / float(n), sum.indirect / float(n)};
-        sum.add(slope[0], float(-mean.x));
-        sum.add(slope[1], float(-mean.y));
-        sum = {glm::max(sum.unshadowed, 0.0f), glm::max(sum.indirect, 0.0f)};
-    }
-};
 
 } // namespace
 
@@ -110,8 +75,7 @@ void SlowLightField::fit(int stride, const std::function<void()>& check, const W
         [&](const GridPoint& here, int x, int y) {
             const double most = 1 / (min_steps * grid_.spacing(x, y));
             const std::size_t number = grid_.number_of(here);
-            Fit fit;
-            fit.sum = light_[number];
+            SlowLightFit fit(light_[number]);
             for (int dy = -reach_points; dy <= reach_points; ++dy)
                 for (int dx = -reach_points; dx <= reach_points; ++dx) {
                     const GridPoint* const there = grid_.point(x + stride * dx, y + stride * dy);
@@ -119,11 +83,10 @@ void SlowLightField::fit(int stride, const std::function<void()>& check, const W
                     if (weight > 0 && there != &here)
                         fit.add({dx, dy}, light_[grid_.number_of(*there)], weight);
                 }
-            std::array<SlowLight, 2> slope;
-            fit.solve(slope);
-            fitted[number] = fit.sum;
+            const auto& [light, slope] = fit.solve();
+            fitted[number] = light;
             constexpr double enough = 10; // points that are wide apart know a slope better
-            if (stride == 1 || fit.n > enough)
+            if (stride == 1 || fit.weight() > enough)
                 for (std::size_t k = 0; k < slope.size(); ++k)
                     slope_[number][k] = {slope[k].unshadowed / float(stride),
                                          slope[k].indirect / float(stride)};
@@ -159,6 +122,7 @@ SlowLightField::interpolate(const SurfacePoint& at, const Vec2& pixel, std::uint
                 weights += weight;
                 around.shadow |= there->shadow;
                 around.is_coarse = around.is_coarse || there->is_coarse;
+                around.reach = std::min(around.reach, reach_of(double(there->nearness)));
             }
         if (!(weights > 0))
             continue;

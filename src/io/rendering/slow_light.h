@@ -8,26 +8,17 @@
 
 #include "geometry/vector.h"
 #include "io/rendering/gather_grid.h"
+#include "io/rendering/slow_light_fit.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
 namespace hemilux {
-
-/// Irradiance that varies slowly [W/m2].
-struct SlowLight {
-    glm::vec3 unshadowed{0.0f}; ///< straight from small emitters if nothing stood between
-    glm::vec3 indirect{0.0f};
-
-    void add(const SlowLight& light, float weight) {
-        unshadowed += weight * light.unshadowed;
-        indirect += weight * light.indirect;
-    }
-};
 
 /// The number of points in each direction over which a point averages.
 inline constexpr int reach_points = 4;
@@ -58,8 +49,9 @@ class SlowLightField {
 
     struct Around {
         SlowLight light;
-        std::uint8_t shadow = 0; ///< Shadow
-        bool is_coarse = false;  ///< GridPoint::is_coarse of some
+        std::uint8_t shadow = 0;                                ///< Shadow
+        bool is_coarse = false;                                 ///< GridPoint::is_coarse of some
+        double reach = std::numeric_limits<double>::infinity(); ///< the least of reach_of()
     };
     /// Interpolates from the four points around a place of the picture [pixels], as far as they are
     /// of the same surface. Where none is, as on narrow strips, it takes the twelve around these;

@@ -2,6 +2,7 @@
 #include "geometry/polygon.h"
 #include "io/charts/charts.h"
 #include "io/lightmaps/lightmap_gather.h"
+#include "io/lightmaps/lightmap_target.h"
 #include "io/lightmaps/occlusion_gather.h"
 #include "io/scene_files/emitter_shapes.h"
 #include "parallel/workers.h"

@@ -2,6 +2,7 @@
 #include "io/charts/charts.h"
 #include "io/lightmaps/covered_texels.h"
 #include "io/lightmaps/lightmap_gather.h"
+#include "io/lightmaps/lightmap_target.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/final_gather/light_at_points.h"
