@@ -16,14 +16,19 @@ constexpr int max_iterations = 1000;
 /// Solved patches rest when they are this share of the lit ones. Their residual is at most so much
 /// of the tolerance.
 constexpr double share_at_rest = 1.0 / 2, residual_at_rest = 1.0 / 2;
+/// Where patches had to be woken so often, as all depend on each other, none rests any more.
+constexpr int max_wakings = 4;
+/// Less light than this share of the guess at a patch is as good as none: a part of the scene that
+/// no light has reached this time has exactly none, which no relative residual would find.
+constexpr double share_of_guess = 1e-10;
 
-/// Returns the square of a residual relative to the light it belongs to. It is at most 1, also
-/// where there is no light yet. What is not reflected is left to the step after the last.
+/// Returns the square of a residual relative to the size of the light it belongs to. It is at most
+/// 1, also where there is no light yet. What is not reflected is left to the step after the last.
 Vec3 relative_square(const Vec3& residual, const Vec3& light, const Vec3& weight) {
     const auto one = [](double r, double h, double w) {
         if (!(w > 0) || r == 0)
             return 0.0;
-        return std::abs(r) < std::abs(h) ? (r / h) * (r / h) : 1.0;
+        return std::abs(r) < h ? (r / h) * (r / h) : 1.0;
     };
     return {one(residual.x, light.x, weight.x), one(residual.y, light.y, weight.y),
             one(residual.z, light.z, weight.z)};
@@ -66,6 +71,7 @@ class Gradients {
         : factors_(factors), workers_(workers), area_(area), reflectance_(reflectance), d_(d),
           h_(h), solved_square_(tolerance * tolerance * residual_at_rest * residual_at_rest),
           chunks_((h.size() + factors.rows_per_chunk - 1) / factors.rows_per_chunk) {
+        for_patches([&](std::size_t i) { least_[i] = share_of_guess * glm::abs(h_[i]); });
         measure();
     }
 
@@ -94,8 +100,8 @@ class Gradients {
     }
 
     /// Goes a step towards the solution, for the patches that do not rest.
-    void iterate() {
-        if (sums_.unsolved_patches <= share_at_rest * sums_.lit_patches)
+    void iterate(bool may_rest) {
+        if (may_rest && sums_.unsolved_patches <= share_at_rest * sums_.lit_patches)
             let_rest();
         for_patches([&](std::size_t i) {
             if (rests_[i])
@@ -136,7 +142,8 @@ class Gradients {
         reflected_[i] = factors_.scaled(i, reflectance_[i] * x);
     }
     [[nodiscard]] Sums residual_at(std::size_t i) const {
-        const Vec3 relative = relative_square(r_[i], h_[i], weight(i));
+        const Vec3 relative =
+            relative_square(r_[i], glm::max(glm::abs(h_[i]), least_[i]), weight(i));
         const Vec3 lit = is_lit(r_[i], h_[i], weight(i));
         return {weight(i) * r_[i] * r_[i], area_[i] * relative, area_[i] * lit, max_channel(lit),
                 max_channel(relative) > solved_square_ ? 1.0 : 0.0};
@@ -199,7 +206,7 @@ class Gradients {
     double solved_square_; ///< square of the relative residual of a solved patch, at most
     std::size_t chunks_;
     std::unique_ptr<Vec3[]> r_ = of_patches<Vec3>(), p_ = of_patches<Vec3>(),
-                            q_ = of_patches<Vec3>();
+                            q_ = of_patches<Vec3>(), least_ = of_patches<Vec3>();
     std::unique_ptr<bool[]> rests_ = of_patches<bool>();
     GatheredVector<Lanes> reflected_{factors_.own_rows()};
     GatheredVector<Vec3> parts_of_curvature_{own_chunks()};
@@ -216,14 +223,16 @@ GradientsResult solve_by_gradients(const ExchangeMatrix& factors, std::span<cons
                                    const StopFlag* interrupted) {
     Gradients gradients(factors, area, reflectance, d, h, workers, tolerance);
     bool stopped = false;
-    int iterations = 0;
+    int iterations = 0, wakings = 0;
     for (; iterations < max_iterations; ++iterations) {
-        if (!(gradients.residual() > tolerance) && gradients.some_rest())
+        if (!(gradients.residual() > tolerance) && gradients.some_rest()) {
             gradients.measure();
+            ++wakings;
+        }
         stopped = gradients.residual() > tolerance && interrupted && agree(*interrupted);
         if (!(gradients.residual() > tolerance) || stopped)
             break;
-        gradients.iterate();
+        gradients.iterate(wakings < max_wakings);
     }
     if (gradients.some_rest() && !stopped)
         gradients.measure();
