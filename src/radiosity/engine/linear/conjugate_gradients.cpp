@@ -177,7 +177,7 @@ class Gradients {
     /// Sums term(i) over all patches, in an order that does not depend on the threads or ranks.
     template <class Value, class Term>
     Value sum(GatheredVector<Value>& parts, const Term& term) const {
-        factors_.own_rows().ranks().wait_for_all(); // others may still read the parts
+        factors_.own_rows().ranks().wait_for_all(); // others may read the parts of the sum before
         factors_.for_rows(workers_, [&](std::size_t begin, std::size_t end) {
             Value some{};
             for (std::size_t i = begin; i < end; ++i)
@@ -211,8 +211,7 @@ class Gradients {
     std::unique_ptr<bool[]> rests_ = of_patches<bool>();
     GatheredVector<Lanes> reflected_{factors_.own_rows()};
     GatheredVector<Vec3> parts_of_curvature_{own_chunks()};
-    /// They are summed in turn, as GatheredVector::gather demands.
-    GatheredVector<Sums> parts_of_sums_{own_chunks()}, parts_of_resting_{own_chunks()};
+    GatheredVector<Sums> parts_of_sums_{own_chunks()};
     Vec3 more_{0.0};
     Sums sums_, resting_; ///< sums over the patches that do not rest, and over those that do
 };
