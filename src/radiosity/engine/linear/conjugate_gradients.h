@@ -4,6 +4,12 @@
 // The light that arrives, h = d + F rho h, has the matrix I - F rho. It is self-adjoint and
 // positive in the inner product with the weights A rho if A_i F_ij is symmetric and no row sums to
 // more than 1. All three channels go in step, so that F is read once for all.
+//
+// These iterations lessen the residual where the light is bright first. Dark patches, which are to
+// be solved to their own scale, come last and would need many more. So patches that are solved
+// rest: when they are half of the lit ones, the iterations begin anew for the others, with the
+// light of those at rest as it is. Rows of patches at rest are not read. At the end the residual of
+// all is computed, and where what other patches changed is too much the iterations go on with all.
 
 #include "radiosity/engine/form_factors/exchange_matrix.h"
 #include "radiosity/paper/solving/stop_flag.h"

@@ -192,6 +192,43 @@ TEST_CASE("Conjugate gradients solve what was stored, however reflective") {
     }
 }
 
+TEST_CASE("Patches without rays lose what was guessed of them, and keep no others from an end") {
+    const Model model(test::cube_with_lit_floor(8, .5));
+    const std::size_t n = model.mesh.patches().size();
+    const Workers workers(1);
+    Monitor monitor;
+    std::vector<std::uint32_t> rays(n);
+    for (std::size_t i = 0; i < n / 6; i += 2) // of the first wall, which does not see itself
+        rays[i] = 64;
+    RayCounts counts(model.mesh, model.bvh, 1);
+    counts.trace_up_to(rays, workers, monitor);
+    const std::vector<double> area = Surfaces(model.mesh).area;
+    const ExchangeMatrix f(area, counts);
+    const std::vector<Vec3> half(n, Vec3(.5));
+    std::vector<Vec3> d(n), h(n, Vec3(1)), reflected(n), fh(n);
+    d[0] = Vec3(1);
+    const GradientsResult result = solve_by_gradients(f, area, half, d, h, workers, 1e-9);
+    CAPTURE(result.iterations);
+    CHECK(result.converged);
+    CHECK(result.iterations < 60);
+    for (std::size_t i = 0; i < n; ++i)
+        reflected[i] = half[i] * h[i];
+    f.multiply(reflected, fh, workers);
+    double squares = 0, lit = 0, empty = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (f.row(i).empty()) {
+            ++empty;
+            CHECK(h[i] == d[i]);
+        } else {
+            const double off = (h[i].x - d[i].x - fh[i].x) / h[i].x;
+            squares += off * off;
+            ++lit;
+        }
+    }
+    CHECK(empty > 0);
+    CHECK(squares <= 2e-18 * lit); // one more reflection comes after the last residual
+}
+
 TEST_CASE("Direct light is unbiased: many emitters, some hidden") {
     Scene scene = test::room_with_block();
     const Model model(scene);
