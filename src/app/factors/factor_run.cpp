@@ -3,7 +3,7 @@
 #include "app/factors/factor_audit.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/solving/time_limit.h"
-#include "radiosity/engine/view_factors/row_rays.h"
+#include "radiosity/engine/view_factors/open_views.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 
@@ -73,9 +73,13 @@ ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScen
                             scene.surfaces.rows.size(), options, workers, monitor);
     };
     if (settings.aim.of == FactorAim::Of::sky) {
-        const OpenViews views =
-            find_open_views(scene.mesh, scene.tree, settings.error, settings.options.seed, scene.up,
-                            scene.bands, workers, monitor);
+        const OpenViews views = find_open_views(scene.mesh, scene.tree,
+                                                {.error = settings.error,
+                                                 .ground = settings.ground,
+                                                 .seed = settings.options.seed,
+                                                 .up = scene.up,
+                                                 .bands = scene.bands},
+                                                workers, monitor);
         ExchangeList list;
         for (const Patch& patch : scene.mesh.patches())
             list.area.push_back(patch.area);

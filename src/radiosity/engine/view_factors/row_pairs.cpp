@@ -17,7 +17,7 @@ constexpr double max_pair_rays = 24;
 constexpr std::uint32_t min_pair_rays = 4;
 
 /// Rays of pairs of one row that are traced together.
-constexpr std::size_t rays_at_a_time = 65'536;
+constexpr std::size_t pair_rays_at_a_time = 65'536;
 
 /// Pairs whose factors are this share of their tolerance are not looked for.
 constexpr double smallest_searched = .1;
@@ -90,7 +90,7 @@ void RowPairs::find(std::uint32_t i, std::vector<PairExchange>& pairs, std::vect
     missed_.clear();
     for (const Candidate& pair : candidates_) {
         estimate(i, pair, pairs);
-        if (rays_.size() >= rays_at_a_time)
+        if (rays_.size() >= pair_rays_at_a_time)
             trace_small(i, pairs);
     }
     trace_small(i, pairs);

@@ -1,14 +1,11 @@
 #include "radiosity/engine/view_factors/row_rays.h"
 
-#include "geometry/elementary.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/rays/shot.h"
-#include "radiosity/paper/solving/solver.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 namespace hemilux {
@@ -94,61 +91,6 @@ void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
     if (!(back.factor > 0) && !may_see_backs(mesh_, patch))
         back = {};
     view.bands = shares_of(band_counts_, rays);
-}
-
-OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, double error, std::uint64_t seed,
-                          int up, const SkyBands* bands, const Workers& workers, Monitor& monitor) {
-    constexpr std::uint32_t first_rays = 1024, most_rays = 1 << 18;
-    constexpr double least_share = .01;
-    const std::size_t patches = mesh.patches().size();
-    const auto excess = [&](const OpenShare& share) {
-        return share.factor > 0
-                   ? share.standard_error / (error * std::max(share.factor, least_share))
-                   : 0;
-    };
-    OpenViews views;
-    views.open.resize(patches);
-    const std::size_t of_row = bands ? bands->size() : 0;
-    views.bands.resize(patches * of_row);
-    std::atomic<std::uint64_t> traced{0}, left{0};
-    const auto for_rows = [&](const auto& use) {
-        workers.for_chunks_with(
-            patches, 16, [&] { return RowRays(mesh, tracer, seed, up, bands); },
-            [&](RowRays& row, std::size_t begin, std::size_t end) {
-                RowView view;
-                for (std::size_t i = begin; i < end && !monitor.interrupted.is_wished(); ++i)
-                    use(row, view, i);
-            });
-    };
-    const auto trace = [&](RowRays& row, RowView& view, std::size_t i, std::uint32_t rays) {
-        row.trace(static_cast<std::uint32_t>(i), rays, view);
-        traced += rays;
-        views.open[i] = view.open;
-        std::ranges::copy(view.bands,
-                          views.bands.begin() + static_cast<std::ptrdiff_t>(i * of_row));
-    };
-    for_rows([&](RowRays& row, RowView& view, std::size_t i) { trace(row, view, i, first_rays); });
-    views.is_void = monitor.interrupted.is_wished();
-    for_rows([&](RowRays& row, RowView& view, std::size_t i) {
-        for (std::uint32_t rays = first_rays; rays < most_rays;) {
-            const double too_large = std::max(excess(views.open[i][0]), excess(views.open[i][1]));
-            if (too_large <= 1)
-                return;
-            if (monitor.interrupted) {
-                ++left;
-                return;
-            }
-            // The error falls about as the power -0.6 of the rays.
-            const double wanted = rays * elementary::pow(too_large, 1 / .6);
-            while (rays < wanted && rays < most_rays)
-                rays *= 2;
-            trace(row, view, i, rays);
-        }
-    });
-    views.rays = traced;
-    views.rows_left = left;
-    monitor.rays += views.rays;
-    return views;
 }
 
 } // namespace hemilux

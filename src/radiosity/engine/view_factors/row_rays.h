@@ -3,7 +3,6 @@
 // the backs of faces.
 
 #include "bvh/tracer.h"
-#include "parallel/workers.h"
 #include "radiosity/engine/view_factors/open_share.h"
 
 #include <array>
@@ -14,7 +13,6 @@ namespace hemilux {
 
 class Mesh;
 class SkyBands;
-struct Monitor;
 
 /// A patch that rays of another hit, and how many.
 struct SeenPatch {
@@ -55,22 +53,5 @@ class RowRays {
     std::vector<Ray> rays_;
     std::vector<std::uint32_t> receivers_, hit_;
 };
-
-/// Sky, ground and backs of all patches, without factors between them.
-struct OpenViews {
-    std::vector<std::array<OpenShare, opens>> open; ///< by patch
-    std::vector<OpenShare> bands;                   ///< by patch and band
-    std::uint64_t rays = 0;
-    std::uint64_t rows_left = 0; ///< patches that should have got more rays
-    bool is_void = false;
-};
-
-/// Traces rays of each patch until the standard errors of its sky and its ground are at most
-/// `error` of these, or of .01 where they are smaller. One that no ray found asks for no more rays.
-/// A patch gets 262 144 rays at most. The end of the monitor's time, or an interrupt, leaves
-/// patches with the first 1024; the result is void if an interrupt came before all had these.
-[[nodiscard]] OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, double error,
-                                        std::uint64_t seed, int up, const SkyBands* bands,
-                                        const Workers& workers, Monitor& monitor);
 
 } // namespace hemilux
