@@ -108,12 +108,19 @@ void RowPairs::trace_small(std::uint32_t i, std::vector<PairExchange>& pairs) {
         // side.
         const double n = share.squares > 0 ? share.all * share.all / share.squares : 0;
         const double p = (n * seen + .5) / (n + 1);
+        const double exchange = small.free * (share.arrived > 0 ? seen : p);
+        const double deviation = small.free * std::sqrt(p * (1 - p) / (n + 1));
         // Divided by the chance that it was found, the sum over all pairs like it is right on
-        // average. The pair itself is then too large by as much.
+        // average. The pair itself is then too large by as much; where that is more than it may be,
+        // pairs like it are not listed.
         const double missed = missed_chance(i, small.pair, small.free * p, p);
-        pair.exchange = small.free * (share.arrived > 0 ? seen : p) / (1 - missed);
-        const double deviation = small.free * std::sqrt(p * (1 - p) / (n + 1)) / (1 - missed);
-        pair.deviation = static_cast<float>(elementary::hypot(deviation, missed * pair.exchange));
+        const double found = std::max(1 - missed, 1e-3), whole = exchange / found;
+        const bool stands_for_others = missed * whole <= tolerance(i, pair.to, whole);
+        pair.exchange = stands_for_others ? whole : exchange;
+        pair.deviation = static_cast<float>(
+            stands_for_others ? elementary::hypot(deviation, missed * exchange) / found
+                              : deviation);
+        missed_[small.place] = stands_for_others ? 0 : static_cast<float>(missed * whole);
     });
     work_.ray_pairs += small_.size();
     small_.clear();

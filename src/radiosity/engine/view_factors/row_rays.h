@@ -3,6 +3,7 @@
 // the backs of faces.
 
 #include "bvh/tracer.h"
+#include "geometry/box.h"
 #include "radiosity/engine/view_factors/open_share.h"
 
 #include <array>
@@ -12,6 +13,7 @@
 namespace hemilux {
 
 class Mesh;
+struct Patch;
 class SkyBands;
 
 /// A patch that rays of another hit, and how many.
@@ -37,18 +39,21 @@ class RowRays {
     /// The mesh, the tracer and the bands, if any, must outlive this. `up` is the axis that points
     /// to the sky.
     RowRays(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed, int up,
-            const SkyBands* bands = nullptr)
-        : mesh_(mesh), tracer_(tracer), seed_(seed), up_(up), bands_(bands) {}
+            const SkyBands* bands = nullptr);
 
     /// Traces `rays` rays of a patch by Lambert's law, a power of two, 256 at least.
     void trace(std::uint32_t patch, std::uint32_t rays, RowView& view);
 
   private:
+    [[nodiscard]] bool may_see_backs(const Patch& patch);
+
     const Mesh& mesh_;
     const Tracer& tracer_;
     std::uint64_t seed_;
     int up_;
     const SkyBands* bands_;
+    Box room_;                    ///< of all patches
+    std::uint32_t last_back_ = 0; ///< a facet whose back faced a patch
     std::vector<std::uint32_t> band_counts_;
     std::vector<Ray> rays_;
     std::vector<std::uint32_t> receivers_, hit_;
