@@ -1,5 +1,6 @@
 #include "radiosity/engine/view_factors/row_rays.h"
 
+#include "radiosity/engine/pair_factors/convex_part.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/paper/rays/patch_start.h"

@@ -40,4 +40,3 @@ TEST_CASE("Groups of patches hold all that rise above a patch and are large and 
     CHECK(counting > 1000);
     CHECK(visits < all * 3 / 4);
 }
-
