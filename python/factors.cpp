@@ -40,6 +40,7 @@ ViewFactorSettings settings_of(double error, const std::string& of, const std::s
     settings.by = rows_of_name(by);
     settings.error = error;
     settings.aim = *aim;
+    settings.ground = true; // its error is asked for, as that of the sky
     settings.rays = rays;
     settings.options.seed = seed;
     settings.options.threads = threads;

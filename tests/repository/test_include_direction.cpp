@@ -36,6 +36,7 @@ const std::vector<std::string> rooms{
     "radiosity/engine/saving",
     "radiosity/engine/sparse",
     "radiosity/engine/form_factors",
+    "radiosity/engine/pair_factors",
     "radiosity/engine/view_factors",
     "radiosity/engine/point_views",
     "radiosity/engine/linear",

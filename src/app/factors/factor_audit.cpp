@@ -47,11 +47,11 @@ void log_error(const ViewFactorSettings& settings, const FactorSurfaces& surface
     case FactorAim::Of::sky: {
         constexpr double least = .01;
         for (const auto& open : factors.open)
-            for (std::size_t k = 0; k < 2; ++k)
+            for (std::size_t k = 0; k < (settings.ground ? 2 : 1); ++k)
                 if (open[k].factor > 0)
                     reached =
                         std::max(reached, open[k].standard_error / std::max(open[k].factor, least));
-        text = "sky and ground: " + percent(reached) +
+        text = (settings.ground ? "sky and ground: " : "sky: ") + percent(reached) +
                " of each at most, or of 0.01 where it is smaller";
         break;
     }

@@ -3,7 +3,7 @@
 #include "app/factors/factor_audit.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/solving/time_limit.h"
-#include "radiosity/engine/view_factors/row_rays.h"
+#include "radiosity/engine/view_factors/open_views.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 
@@ -21,6 +21,7 @@ constexpr double slack_of_rms = 1.5;
 /// of all rows, as far as it is known.
 FactorTolerance tolerance_of(const ViewFactorSettings& settings, const FactorSurfaces& surfaces,
                              double largest) {
+    constexpr double least_of_row = 1e-3;
     const double error = settings.error;
     switch (settings.aim.of) {
     case FactorAim::Of::above:
@@ -29,22 +30,22 @@ FactorTolerance tolerance_of(const ViewFactorSettings& settings, const FactorSur
         return relative_above(error, largest);
     case FactorAim::Of::rows:
         // Squares of the errors of a row add up to at most error^2 times the sum of its factors.
-        return [error](std::uint32_t, std::uint32_t, double factor) {
-            constexpr double least = 1e-3;
-            return error * std::max(std::sqrt(factor), least);
-        };
+        return {error * least_of_row, [=](std::uint32_t, std::uint32_t, double factor) {
+                    return error * std::max(std::sqrt(factor), least_of_row);
+                }};
     case FactorAim::Of::pair:
     case FactorAim::Of::sky: // which needs no pairs
         break;
     }
     const std::uint32_t a = surfaces.row_named(settings.aim.from),
                         b = surfaces.row_named(settings.aim.to);
-    return [error, a, b, &surfaces](std::uint32_t i, std::uint32_t j, double factor) {
-        constexpr double least_of_pair = 1e-4, least_of_others = .1;
+    constexpr double least_of_pair = 1e-4, least_of_others = .1;
+    const auto tolerance = [=, &surfaces](std::uint32_t i, std::uint32_t j, double factor) {
         const std::uint32_t row = surfaces.row_of[i], column = surfaces.row_of[j];
         const bool counts = (row == a && column == b) || (row == b && column == a);
         return error * std::max(factor, counts ? least_of_pair : least_of_others);
     };
+    return {error * least_of_pair, tolerance};
 }
 
 /// With a limit of time, a coarse pass comes first: it takes a fraction of the time of the last,
@@ -72,9 +73,13 @@ ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScen
                             scene.surfaces.rows.size(), options, workers, monitor);
     };
     if (settings.aim.of == FactorAim::Of::sky) {
-        const OpenViews views =
-            find_open_views(scene.mesh, scene.tree, settings.error, settings.options.seed, scene.up,
-                            scene.bands, workers, monitor);
+        const OpenViews views = find_open_views(scene.mesh, scene.tree,
+                                                {.error = settings.error,
+                                                 .ground = settings.ground,
+                                                 .seed = settings.options.seed,
+                                                 .up = scene.up,
+                                                 .bands = scene.bands},
+                                                workers, monitor);
         ExchangeList list;
         for (const Patch& patch : scene.mesh.patches())
             list.area.push_back(patch.area);

@@ -8,7 +8,7 @@
 // is inside of all of its planes. What is left is cut along these planes into convex pieces (Weiler
 // and Atherton 1977, "Hidden surface removal using polygon area sorting").
 
-#include "radiosity/engine/view_factors/convex_part.h"
+#include "radiosity/engine/pair_factors/convex_part.h"
 
 #include <cstddef>
 #include <span>

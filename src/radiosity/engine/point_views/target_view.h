@@ -5,7 +5,7 @@
 #include "geometry/frame.h"
 #include "radiosity/engine/point_views/point_factors.h"
 #include "radiosity/engine/point_views/seen_part.h"
-#include "radiosity/engine/view_factors/free_exchange.h"
+#include "radiosity/engine/pair_factors/free_exchange.h"
 
 #include <cstdint>
 #include <vector>

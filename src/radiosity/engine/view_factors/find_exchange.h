@@ -4,11 +4,8 @@
 // 1. Rays of each patch find who sees whom, and how much of the view is sky and ground. Rays
 //    between pairs that face each other look for what these missed.
 // 2. A factor far below what counts is the free one times the share of a few rays that arrive.
-// 3. For every other pair the tree is asked for facets in the hull of the two. Where there are
-// none,
-//    the free factor (free_exchange.h) is exact. Else it is multiplied by the seen share of the
-//    kernel, by lines between which these facets cast shadows (line_samples.h), as many as the
-//    error asks for.
+// 3. Every other pair is exact where nothing lies between, and else estimated by lines
+//    (hidden_exchange.h).
 
 #include "bvh/wide/wide_bvh.h"
 #include "parallel/workers.h"
@@ -23,13 +20,17 @@ class Mesh;
 class SkyBands;
 struct Monitor;
 
-/// This says which standard error a factor may have. `larger` is the larger of the two factors of a
-/// pair [-], `smaller_index` and `larger_index` are its patches.
-using FactorTolerance =
-    std::function<double(std::uint32_t smaller_index, std::uint32_t larger_index, double larger)>;
+/// This says which standard error a factor may have.
+struct FactorTolerance {
+    double least; ///< that any may have [-]
+    /// `larger` is the larger of the two factors of a pair [-], `smaller_index` and `larger_index`
+    /// are its patches.
+    std::function<double(std::uint32_t smaller_index, std::uint32_t larger_index, double larger)>
+        of;
+};
 
-/// Asks for a relative error `error` of factors above `least`, and the same in absolute figures of
-/// those below.
+/// Asks for a relative error `error` of factors above `least`. Those below may have five times the
+/// absolute error of `least`, and less the nearer they are to it.
 [[nodiscard]] FactorTolerance relative_above(double error, double least);
 
 struct ExchangeOptions {

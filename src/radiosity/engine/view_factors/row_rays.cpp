@@ -1,41 +1,59 @@
 #include "radiosity/engine/view_factors/row_rays.h"
 
-#include "geometry/elementary.h"
+#include "radiosity/engine/pair_factors/convex_part.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/rays/shot.h"
-#include "radiosity/paper/solving/solver.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 namespace hemilux {
 namespace {
 
-/// Returns whether the back of a one-sided facet faces a patch, seen or hidden.
-bool may_see_backs(const Mesh& mesh, std::uint32_t patch) {
-    constexpr double rounding = 1e-9;
-    const Patch& from = mesh.patches()[patch];
-    for (std::uint32_t facet = 0; facet < mesh.scene().facets.size(); ++facet) {
-        if (mesh.has_back(facet))
-            continue;
-        const Polygon shape = mesh.shape_of(facet);
-        const Vec3 front = shape.area_vector();
-        const double level = -rounding * glm::length(front);
-        const bool is_behind = std::ranges::any_of(from.shape.corner, [&](const Vec3& corner) {
-            return glm::dot(front, corner - shape.corner[0]) < level;
-        });
-        if (is_behind && std::ranges::any_of(shape.corner, [&from](const Vec3& corner) {
-                return glm::dot(from.normal, corner - from.shape.corner[0]) > rounding;
-            }))
-            return true;
-    }
-    return false;
+/// A height over a plane that counts as in it, in the unit of a scene in [-1,1]^3.
+constexpr double height_of_backs = 1e-9;
+
+/// Returns whether the back of a facet faces a patch, seen or hidden.
+bool shows_its_back(const Polygon& shape, const Patch& to) {
+    if (std::ranges::none_of(shape.corner, [&to](const Vec3& corner) {
+            return glm::dot(to.normal, corner - to.shape.corner[0]) > height_of_backs;
+        }))
+        return false;
+    const Vec3 front = shape.area_vector();
+    const double level = -height_of_backs * glm::length(front);
+    return std::ranges::any_of(to.shape.corner, [&](const Vec3& corner) {
+        return glm::dot(front, corner - shape.corner[0]) < level;
+    });
 }
 
 } // namespace
+
+RowRays::RowRays(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed, int up,
+                 const SkyBands* bands)
+    : mesh_(mesh), tracer_(tracer), seed_(seed), up_(up), bands_(bands) {
+    for (const Patch& patch : mesh.patches())
+        room_.include(box_of(patch.shape.corner));
+}
+
+/// Returns whether the back of a one-sided facet faces a patch. Most patches are faced by the one
+/// that faced the last, and nothing rises above the highest roofs, so few look at all facets.
+bool RowRays::may_see_backs(const Patch& patch) {
+    const Vec3 half = .5 * room_.extent();
+    const Plane plane{patch.shape.corner[0], patch.normal};
+    if (plane.height(room_.centre()) + glm::dot(half, glm::abs(patch.normal)) <= height_of_backs)
+        return false;
+    const auto facets = static_cast<std::uint32_t>(mesh_.scene().facets.size());
+    for (std::uint32_t k = 0; k < facets; ++k) {
+        const std::uint32_t facet = (last_back_ + k) % facets;
+        if (!mesh_.has_back(facet) && shows_its_back(mesh_.shape_of(facet), patch)) {
+            last_back_ = facet;
+            return true;
+        }
+    }
+    return false;
+}
 
 void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
     const auto start = PatchStart::in_any_axes(mesh_, patch);
@@ -91,64 +109,9 @@ void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
     if (std::abs(rise) >= level)
         view.open[static_cast<std::size_t>(rise > 0 ? Open::ground : Open::sky)] = {};
     OpenShare& back = view.open[static_cast<std::size_t>(Open::back)];
-    if (!(back.factor > 0) && !may_see_backs(mesh_, patch))
+    if (!(back.factor > 0) && !may_see_backs(mesh_.patches()[patch]))
         back = {};
     view.bands = shares_of(band_counts_, rays);
-}
-
-OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, double error, std::uint64_t seed,
-                          int up, const SkyBands* bands, const Workers& workers, Monitor& monitor) {
-    constexpr std::uint32_t first_rays = 1024, most_rays = 1 << 18;
-    constexpr double least_share = .01;
-    const std::size_t patches = mesh.patches().size();
-    const auto excess = [&](const OpenShare& share) {
-        return share.factor > 0
-                   ? share.standard_error / (error * std::max(share.factor, least_share))
-                   : 0;
-    };
-    OpenViews views;
-    views.open.resize(patches);
-    const std::size_t of_row = bands ? bands->size() : 0;
-    views.bands.resize(patches * of_row);
-    std::atomic<std::uint64_t> traced{0}, left{0};
-    const auto for_rows = [&](const auto& use) {
-        workers.for_chunks_with(
-            patches, 16, [&] { return RowRays(mesh, tracer, seed, up, bands); },
-            [&](RowRays& row, std::size_t begin, std::size_t end) {
-                RowView view;
-                for (std::size_t i = begin; i < end && !monitor.interrupted.is_wished(); ++i)
-                    use(row, view, i);
-            });
-    };
-    const auto trace = [&](RowRays& row, RowView& view, std::size_t i, std::uint32_t rays) {
-        row.trace(static_cast<std::uint32_t>(i), rays, view);
-        traced += rays;
-        views.open[i] = view.open;
-        std::ranges::copy(view.bands,
-                          views.bands.begin() + static_cast<std::ptrdiff_t>(i * of_row));
-    };
-    for_rows([&](RowRays& row, RowView& view, std::size_t i) { trace(row, view, i, first_rays); });
-    views.is_void = monitor.interrupted.is_wished();
-    for_rows([&](RowRays& row, RowView& view, std::size_t i) {
-        for (std::uint32_t rays = first_rays; rays < most_rays;) {
-            const double too_large = std::max(excess(views.open[i][0]), excess(views.open[i][1]));
-            if (too_large <= 1)
-                return;
-            if (monitor.interrupted) {
-                ++left;
-                return;
-            }
-            // The error falls about as the power -0.6 of the rays.
-            const double wanted = rays * elementary::pow(too_large, 1 / .6);
-            while (rays < wanted && rays < most_rays)
-                rays *= 2;
-            trace(row, view, i, rays);
-        }
-    });
-    views.rays = traced;
-    views.rows_left = left;
-    monitor.rays += views.rays;
-    return views;
 }
 
 } // namespace hemilux

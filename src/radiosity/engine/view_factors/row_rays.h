@@ -3,7 +3,7 @@
 // the backs of faces.
 
 #include "bvh/tracer.h"
-#include "parallel/workers.h"
+#include "geometry/box.h"
 #include "radiosity/engine/view_factors/open_share.h"
 
 #include <array>
@@ -13,8 +13,8 @@
 namespace hemilux {
 
 class Mesh;
+struct Patch;
 class SkyBands;
-struct Monitor;
 
 /// A patch that rays of another hit, and how many.
 struct SeenPatch {
@@ -39,38 +39,24 @@ class RowRays {
     /// The mesh, the tracer and the bands, if any, must outlive this. `up` is the axis that points
     /// to the sky.
     RowRays(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed, int up,
-            const SkyBands* bands = nullptr)
-        : mesh_(mesh), tracer_(tracer), seed_(seed), up_(up), bands_(bands) {}
+            const SkyBands* bands = nullptr);
 
     /// Traces `rays` rays of a patch by Lambert's law, a power of two, 256 at least.
     void trace(std::uint32_t patch, std::uint32_t rays, RowView& view);
 
   private:
+    [[nodiscard]] bool may_see_backs(const Patch& patch);
+
     const Mesh& mesh_;
     const Tracer& tracer_;
     std::uint64_t seed_;
     int up_;
     const SkyBands* bands_;
+    Box room_;                    ///< of all patches
+    std::uint32_t last_back_ = 0; ///< a facet whose back faced a patch
     std::vector<std::uint32_t> band_counts_;
     std::vector<Ray> rays_;
     std::vector<std::uint32_t> receivers_, hit_;
 };
-
-/// Sky, ground and backs of all patches, without factors between them.
-struct OpenViews {
-    std::vector<std::array<OpenShare, opens>> open; ///< by patch
-    std::vector<OpenShare> bands;                   ///< by patch and band
-    std::uint64_t rays = 0;
-    std::uint64_t rows_left = 0; ///< patches that should have got more rays
-    bool is_void = false;
-};
-
-/// Traces rays of each patch until the standard errors of its sky and its ground are at most
-/// `error` of these, or of .01 where they are smaller. One that no ray found asks for no more rays.
-/// A patch gets 262 144 rays at most. The end of the monitor's time, or an interrupt, leaves
-/// patches with the first 1024; the result is void if an interrupt came before all had these.
-[[nodiscard]] OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, double error,
-                                        std::uint64_t seed, int up, const SkyBands* bands,
-                                        const Workers& workers, Monitor& monitor);
 
 } // namespace hemilux

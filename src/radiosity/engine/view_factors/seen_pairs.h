@@ -1,8 +1,8 @@
 #pragma once
 // Pairs of patches that rays found, and what these rays alone say of their exchange.
 
+#include "radiosity/engine/pair_factors/free_exchange.h"
 #include "radiosity/engine/view_factors/exchange_list.h"
-#include "radiosity/engine/view_factors/free_exchange.h"
 #include "radiosity/engine/view_factors/row_rays.h"
 
 #include <cstdint>

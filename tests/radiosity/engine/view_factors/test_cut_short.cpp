@@ -1,5 +1,5 @@
 // What the end of the time, or an interrupt, leaves of view factors: values with errors that hold.
-#include "radiosity/engine/view_factors/row_rays.h"
+#include "radiosity/engine/view_factors/open_views.h"
 #include "radiosity/engine/view_factors/view_factors.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
@@ -115,7 +115,7 @@ TEST_CASE("A run that is interrupted among pairs keeps those that are done, and 
 TEST_CASE("Sky and ground alone are known as soon as the first rays are") {
     const Blocks blocks;
     const auto views = [&](Monitor& monitor) {
-        return find_open_views(blocks.model.mesh, blocks.model.bvh, .003, 1, 2, nullptr, Workers(1),
+        return find_open_views(blocks.model.mesh, blocks.model.bvh, {.error = .003}, Workers(1),
                                monitor);
     };
     Monitor free, ended, interrupted;
@@ -123,7 +123,7 @@ TEST_CASE("Sky and ground alone are known as soon as the first rays are") {
     ended.interrupted.set_out_of_time(true);
     const OpenViews first = views(ended);
     CHECK((!first.is_void && first.rows_left > 0 && exact.rows_left == 0));
-    CHECK(first.rays == 1024 * blocks.row_of.size());
+    CHECK(first.rays == 256 * blocks.row_of.size());
     double squares = 0;
     for (std::size_t i = 0; i < blocks.row_of.size(); ++i) {
         const OpenShare &a = first.open[i][0], &b = exact.open[i][0];

@@ -3,8 +3,8 @@
 // into it, the two see each other wholly, and that is certain.
 
 #include "bvh/wide/shaft.h"
-#include "radiosity/engine/view_factors/convex_part.h"
-#include "radiosity/engine/view_factors/free_exchange.h"
+#include "radiosity/engine/pair_factors/convex_part.h"
+#include "radiosity/engine/pair_factors/free_exchange.h"
 
 namespace hemilux {
 

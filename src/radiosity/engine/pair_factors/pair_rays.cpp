@@ -1,4 +1,4 @@
-#include "radiosity/engine/view_factors/pair_rays.h"
+#include "radiosity/engine/pair_factors/pair_rays.h"
 
 #include "geometry/polygon_sampler.h"
 #include "radiosity/paper/sampling/rng.h"

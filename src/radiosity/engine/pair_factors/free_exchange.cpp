@@ -1,4 +1,4 @@
-#include "radiosity/engine/view_factors/free_exchange.h"
+#include "radiosity/engine/pair_factors/free_exchange.h"
 
 #include "geometry/elementary.h"
 

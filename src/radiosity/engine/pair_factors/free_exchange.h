@@ -7,7 +7,7 @@
 // (exchange_area.h), where common edges and corners are integrable.
 
 #include "geometry/polygon.h"
-#include "radiosity/engine/view_factors/convex_part.h"
+#include "radiosity/engine/pair_factors/convex_part.h"
 
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-#include "radiosity/engine/view_factors/pair_hull.h"
+#include "radiosity/engine/pair_factors/pair_hull.h"
 
 #include <algorithm>
 #include <array>
@@ -91,16 +91,21 @@ void PairHull::add_sides(const ConvexPart& of, const ConvexPart& other, double r
 }
 
 bool PairHull::holds_some_of(const Polygon& polygon) const {
+    std::array<std::size_t, std::tuple_size_v<decltype(Shaft::side)>> cutting;
+    std::size_t cuts = 0;
     for (std::size_t k = 0; k < sides_.size; ++k) {
         const Shaft::HalfSpace& side = sides_.side[k];
-        if (std::ranges::all_of(polygon.corner, [&side](const Vec3& corner) {
-                return glm::dot(side.normal, corner) >= side.offset;
-            }))
+        unsigned outside = 0;
+        for (const Vec3& corner : polygon.corner)
+            outside += glm::dot(side.normal, corner) >= side.offset ? 1 : 0;
+        if (outside == polygon.corner.size())
             return false;
+        if (outside > 0)
+            cutting[cuts++] = k;
     }
     ConvexPart part = part_of(polygon);
-    for (std::size_t k = 0; k < sides_.size && !part.empty(); ++k)
-        part = inside(part, sides_.side[k]);
+    for (std::size_t k = 0; k < cuts && !part.empty(); ++k)
+        part = inside(part, sides_.side[cutting[k]]);
     return !part.empty();
 }
 

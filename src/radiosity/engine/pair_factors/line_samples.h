@@ -4,11 +4,15 @@
 // From a point of one patch, a line across the other is seen but for the shadows of what stands
 // between: each facet hides an interval of it. The kernel along the line has a closed form, so that
 // a line is one sample of three dimensions where a ray is one of four, and it changes steadily
-// where rays say yes or no. Points and lines are drawn in pairs from equal cells; what the two of a
-// cell differ by is the error.
+// where rays say yes or no. Points and lines are those of one scrambled Sobol sequence, whose error
+// falls nearly as their number. Equal blocks of it are nets of their own; what these differ by says
+// how large the error of their mean is.
 
-#include "radiosity/engine/view_factors/free_exchange.h"
+#include "geometry/polygon_sampler.h"
+#include "radiosity/engine/pair_factors/free_exchange.h"
+#include "radiosity/engine/sampling/sobol.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,24 +31,37 @@ enum class LinesAlong : std::uint8_t { first_edge, second_edge };
 
 class LineSamples {
   public:
+    /// The fewest lines.
+    static constexpr std::uint32_t first_lines = 16;
+
     /// Lines lie across the larger of the two. `between` are the facets that may stand between
     /// them; those that hide most are moved to its front. All of it must outlive this.
-    LineSamples(const FacePlane& a, const FacePlane& b, std::span<Polygon> between);
+    LineSamples(const FacePlane& a, const FacePlane& b, std::span<Polygon> between,
+                LinesAlong along, std::uint64_t seed);
 
-    /// Draws two lines in each of cells^3 cells. The share has the same bytes for the same seed.
-    [[nodiscard]] SeenShare estimate(unsigned cells, LinesAlong along, std::uint64_t seed);
+    /// Goes on to so many lines, a power of two, first_lines at least. They have the same bytes for
+    /// the same seed.
+    void go_on_to(std::uint32_t lines);
+    [[nodiscard]] SeenShare seen() const;
 
   private:
+    static constexpr std::size_t blocks = 8;
+
     struct Line;
     [[nodiscard]] bool hidden_by(const Polygon& facet, const Line& line, Vec2& interval) const;
     [[nodiscard]] double seen_of(const Line& line, double whole);
     /// Returns the seen and the whole kernel along a line.
-    [[nodiscard]] Vec2 sample(const Polygon& shape, const Vec3& x, double s);
+    [[nodiscard]] Vec2 sample(const Vec3& x, double s);
 
     const FacePlane &points_, &lines_;
     std::span<Polygon> between_;
+    PolygonSampler sampler_;
+    Polygon shape_; ///< that lines lie across
+    SobolBlocks<4> places_;
+    std::uint32_t count_ = 0, clear_ = 0;
+    std::array<Vec2, blocks> sums_{}; ///< seen and whole kernel of consecutive lines
+    double whole_squares_ = 0;
     std::vector<Vec2> hidden_; ///< intervals of a line
-    std::vector<Vec2> sums_;   ///< by line
 };
 
 } // namespace hemilux

@@ -3,7 +3,7 @@
 // small that a few rays are as exact as need be.
 
 #include "bvh/tracer.h"
-#include "radiosity/engine/view_factors/free_exchange.h"
+#include "radiosity/engine/pair_factors/free_exchange.h"
 
 #include <cstdint>
 #include <vector>

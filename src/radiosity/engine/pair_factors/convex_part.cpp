@@ -1,4 +1,4 @@
-#include "radiosity/engine/view_factors/convex_part.h"
+#include "radiosity/engine/pair_factors/convex_part.h"
 
 namespace hemilux {
 
