@@ -1,6 +1,6 @@
 #!/bin/sh
-# Bakes the office into vertices and a lightmap, and compares what viewers show with hemilux's own picture. Solves the
-# scene that Blender begins with.
+# Bakes the office into vertices and a lightmap, and a room of scripts/artist_room.py into its own file, and compares what
+# viewers show with hemilux's own pictures. Solves the scene that Blender begins with.
 #   check.sh HEMILUX [NODE_MODULES]
 # Blender where it is installed; three.js in headless Chromium and the Khronos validator where NODE_MODULES has them
 # (npm install three gltf-validator). The mean difference has to be below 2 % of the mean light, and the validator has
@@ -18,6 +18,9 @@ cd "$scratch"
 view=7.6,2,5.7,2.6,0.7,1.6,58
 "$hemilux" solve "$here/../../examples/scenes/office_3576.obj" -q --divide none --tone srgb --no-gather --size 400x300 \
     --camera $view -o picture.hdr -o scene.glb --lightmap 2048
+python3 "$here/../artist_room.py" room.glb
+"$hemilux" bake room.glb -q -o lit.glb --lightmap 1024
+"$hemilux" solve room.glb -q --error 1% --size 400x300 -o room.hdr
 
 ran= status=0
 judge() { # viewer, file and what the line in it begins with
@@ -40,20 +43,31 @@ bpy.ops.export_scene.gltf(filepath='begin.glb', export_lights=True, export_camer
 fi
 if [ -d "${modules:-/none}/gltf-validator" ]; then
     ran=yes
-    NODE_PATH=$modules node "$here/validate.js" scene.glb || status=1
+    for file in scene.glb lit.glb; do NODE_PATH=$modules node "$here/validate.js" $file || status=1; done
 fi
 if [ -d "${modules:-/none}/three" ] && command -v chromium >/dev/null && command -v python3 >/dev/null; then
     ran=yes
     ln -s "$modules/three" three
-    cp "$here/three.html" .
-    python3 -u -m http.server 0 --bind 127.0.0.1 >port 2>/dev/null &
+    cp "$here/three.html" "$here/baked.html" .
+    python3 -u -m http.server 0 --bind 127.0.0.1 >port 2>requests &
     server=$!
     while ! grep -q port port; do sleep 0.1; done
     port=$(sed 's/.* port \([0-9]*\).*/\1/' port)
-    HOME=$scratch timeout 120 chromium --headless --no-sandbox --disable-gpu --use-gl=angle --use-angle=swiftshader \
-        --enable-unsafe-swiftshader --virtual-time-budget=20000 --user-data-dir="$scratch/profile" --dump-dom \
-        "http://127.0.0.1:$port/three.html#$view" >dom 2>log
+    show() { # page and options; the shell becomes the browser
+        page=$1
+        shift
+        exec env HOME="$scratch" timeout 120 chromium --headless --no-sandbox --disable-gpu --use-gl=angle --use-angle=swiftshader \
+            --enable-unsafe-swiftshader --user-data-dir="$scratch/profile" "$@" "http://127.0.0.1:$port/$page"
+    }
+    (show "three.html#$view" --virtual-time-budget=20000 --dump-dom) >dom 2>log
     for what in vertices lightmap; do judge three.js dom $what || status=1; done
+    show baked.html --remote-debugging-port=0 >log 2>&1 &
+    browser=$!
+    while kill -0 $browser 2>/dev/null && ! grep -q 'done?' requests; do sleep 0.2; done
+    kill $browser 2>/dev/null || true
+    python3 -c 'import re, sys, urllib.parse
+print(*map(urllib.parse.unquote, re.findall(r"done\?(\S+)", sys.stdin.read())), sep="\n")' <requests >baked
+    judge three.js baked baked || status=1
 fi
 [ -n "$ran" ] || { echo "neither Blender nor three.js nor the validator is here" >&2; exit 77; }
 exit $status
