@@ -1,7 +1,9 @@
-// view_factors: the factors of the program's `viewfactors`, as the arrays of a sparse matrix.
+// view_factors: the factors of the program's `viewfactors`, as the arrays of a sparse matrix; and
+// the sunlit fractions of surfaces.
 
 #include "app/factors/factor_points.h"
 #include "app/factors/factor_run.h"
+#include "app/factors/sunlit_run.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/factor_aim.h"
 #include "python/parts.h"
@@ -11,6 +13,7 @@
 #include <pybind11/stl.h>
 
 #include <bit>
+#include <optional>
 
 namespace hemilux {
 namespace {
@@ -25,26 +28,44 @@ FactorRows rows_of_name(const std::string& by) {
     throw UsageError("by: expected 'face', 'group' or 'material', found '" + by + "'");
 }
 
-ViewFactorSettings settings_of(double error, const std::string& of, const std::string& by,
-                               std::uint32_t rays, std::uint64_t seed, unsigned threads) {
-    constexpr std::uint32_t least_rays = 256, most_rays = 1 << 20;
+/// Returns the settings that all functions have.
+ViewFactorSettings settings_of(double error, const std::string& by, std::uint64_t seed,
+                               unsigned threads) {
     ViewFactorSettings settings;
     if (!(error > 0 && error < 1))
         throw UsageError("error: expected a number above 0 and below 1");
+    settings.by = rows_of_name(by);
+    settings.error = error;
+    settings.options.seed = seed;
+    settings.options.threads = threads;
+    return settings;
+}
+
+ViewFactorSettings settings_of(double error, const std::string& of, const std::string& by,
+                               std::uint32_t rays, std::optional<double> seconds,
+                               std::uint64_t seed, unsigned threads) {
+    constexpr std::uint32_t least_rays = 256, most_rays = 1 << 20;
+    ViewFactorSettings settings = settings_of(error, by, seed, threads);
     if (!std::has_single_bit(rays) || rays < least_rays || rays > most_rays)
         throw UsageError("rays: expected a power of two from 256 to 1048576");
     const std::optional<FactorAim> aim = parse_factor_aim(of);
     if (!aim)
         throw UsageError("of: expected 'above:F', 'rows', 'largest', 'pair:A,B' or 'sky', found '" +
                          of + "'");
-    settings.by = rows_of_name(by);
-    settings.error = error;
     settings.aim = *aim;
     settings.ground = true; // its error is asked for, as that of the sky
     settings.rays = rays;
-    settings.options.seed = seed;
-    settings.options.threads = threads;
+    if (seconds && !(*seconds > 0))
+        throw UsageError("time: expected a number of seconds above 0");
+    settings.seconds = seconds;
     return settings;
+}
+
+std::vector<FactorPlace> places_of(const Doubles& positions, const Doubles& normals) {
+    std::vector<FactorPlace> places;
+    for (std::size_t k = 0; k < rows_of(positions).size(); ++k)
+        places.push_back({{}, rows_of(positions)[k], rows_of(normals)[k]});
+    return places;
 }
 
 py::dict audit_of(const ViewFactors& factors, double reciprocity) {
@@ -129,16 +150,15 @@ py::dict points_of(const std::vector<PointFactors>& rows) {
 }
 
 py::dict compute(const PythonMesh& mesh, double error, const std::string& of, const std::string& by,
-                 std::uint32_t rays, int up, std::uint64_t seed, unsigned threads,
-                 const Doubles& positions, const Doubles& normals, const py::object& progress) {
-    const ViewFactorSettings settings = settings_of(error, of, by, rays, seed, threads);
+                 std::uint32_t rays, std::optional<double> seconds, int up, std::uint64_t seed,
+                 unsigned threads, const Doubles& positions, const Doubles& normals,
+                 const py::object& progress) {
+    const ViewFactorSettings settings = settings_of(error, of, by, rays, seconds, seed, threads);
     Monitor monitor;
     FactorSurfaces surfaces;
     ViewFactors factors;
     double reciprocity = 0;
-    std::vector<FactorPlace> places;
-    for (std::size_t k = 0; k < rows_of(positions).size(); ++k)
-        places.push_back({{}, rows_of(positions)[k], rows_of(normals)[k]});
+    const std::vector<FactorPlace> places = places_of(positions, normals);
     std::vector<PointFactors> points;
     run_without_lock(monitor, progress, [&] {
         surfaces = factor_surfaces(mesh.mesh(), settings.by);
@@ -151,6 +171,44 @@ py::dict compute(const PythonMesh& mesh, double error, const std::string& of, co
     py::dict result = result_of(std::move(factors), surfaces, reciprocity);
     result["least"] = settings.aim.least; // of above:F
     result["points"] = points_of(points);
+    return result;
+}
+
+/// Returns the names of surfaces, and sunlit fractions and their standard errors: those of surfaces
+/// and then of points for the first sun, then for the next one. `directions` are those in which the
+/// light of suns goes.
+py::dict sunlit(const PythonMesh& mesh, const Doubles& directions, double error,
+                const std::string& by, std::uint64_t seed, unsigned threads,
+                const Doubles& positions, const Doubles& normals, const py::object& progress) {
+    const ViewFactorSettings settings = settings_of(error, by, seed, threads);
+    const std::vector<FactorPlace> places = places_of(positions, normals);
+    const std::span<const Vec3> suns = rows_of(directions);
+    Monitor monitor;
+    FactorSurfaces surfaces;
+    std::vector<double> fractions, errors;
+    run_without_lock(monitor, progress, [&] {
+        surfaces = factor_surfaces(mesh.mesh(), settings.by);
+        const FactorScene scene{mesh.mesh(), mesh.tree(threads), surfaces, 2};
+        const std::vector<FactorPoint> points = factor_points(places, scene.mesh, scene.tree);
+        monitor.phase = "sunlight";
+        for (std::size_t s = 0; s < suns.size() && !monitor.interrupted; ++s) {
+            monitor.step_share = static_cast<double>(s) / static_cast<double>(suns.size());
+            const SunlitShares found =
+                sunlit_shares(settings, scene, -glm::normalize(suns[s]), s, points, monitor);
+            for (const std::vector<OpenShare>* const some : {&found.surfaces, &found.points})
+                for (const OpenShare& share : *some) {
+                    fractions.push_back(share.factor);
+                    errors.push_back(share.standard_error);
+                }
+        }
+    });
+    py::list names;
+    for (const FactorSurface& surface : surfaces.rows)
+        names.append(surface.name);
+    py::dict result;
+    result["name"] = names;
+    result["sunlit"] = array_of(std::move(fractions));
+    result["standard_error"] = array_of(std::move(errors));
     return result;
 }
 
@@ -211,6 +269,7 @@ void save(const std::string& path, const Integers& begin, const Integers& column
 void add_view_factors(py::module_& module) {
     module.def("view_factors", &compute);
     module.def("save_factors", &save);
+    module.def("sunlit", &sunlit);
 }
 
 } // namespace hemilux

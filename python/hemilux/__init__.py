@@ -15,6 +15,7 @@ from ._hemilux import __version__
 from ._mesh import Mesh, read
 from ._rays import Hits, Rays, rays
 from ._solve import Solution, methods, solve
+from ._sunlit import Sunlit, sunlit
 from ._view_factors import view_factors
 
 __all__ = [
@@ -25,6 +26,7 @@ __all__ = [
     "PointFactors",
     "Rays",
     "Solution",
+    "Sunlit",
     "ViewFactors",
     "__version__",
     "compare",
@@ -33,5 +35,6 @@ __all__ = [
     "rays",
     "read",
     "solve",
+    "sunlit",
     "view_factors",
 ]

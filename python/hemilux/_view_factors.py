@@ -36,8 +36,8 @@ def _error_reached(factors: ViewFactors, of: str, least: float) -> float:
 
 def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by: str = "face",
                  sky: bool = False, ground: bool = False, rays: int = 1024,
-                 up: Optional[str] = None, points: Any = None, threads: int = 0, seed: int = 1,
-                 progress: Progress = None) -> ViewFactors:
+                 time: Optional[float] = None, up: Optional[str] = None, points: Any = None,
+                 threads: int = 0, seed: int = 1, progress: Progress = None) -> ViewFactors:
     """Compute the view factors between all surfaces, as ``hemilux viewfactors``.
 
     Parameters
@@ -56,6 +56,9 @@ def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by
         Whether they are columns of the matrix too.
     rays : int, optional
         Rays of each patch that find who sees whom, a power of two from 256.
+    time : float, optional
+        Seconds after which the factors are as exact as they are then; ``audit["error"]`` has the
+        error that was reached. A result that was cut short depends on the machine.
     up : {'x', 'y', 'z'}, optional
         The axis that points to the sky; by default that of the mesh.
     points : array_like of float, shape (p, 6), optional
@@ -94,6 +97,7 @@ def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by
     number, chosen_seed = threads_and_seed(threads, seed)
     places = _places("points", points)
     found = _hemilux.view_factors(mesh._core, float(error), of, by, natural("rays", rays, 2**20),
+                                  None if time is None else float(time),
                                   mesh._core.up if up is None else axis(up), chosen_seed, number,
                                   places[:, :3], places[:, 3:], progress)
     n = len(found["area"])

@@ -195,6 +195,7 @@ def test_turned_faces_are_named():
     (dict(rays=1024.0), "rays: expected a whole number"),
     (dict(threads=-1), "threads: expected a whole number from 0"),
     (dict(seed=-1), "seed: expected a whole number from 0"),
+    (dict(time=0), "time: expected a number of seconds above 0"),
     (dict(points=[[0, 0, 0]]), "points: expected rows of six numbers"),
     (dict(points=[[0, 0, 0, 0, 0, 0]]), "points: expected a normal"),
     (dict(up="w"), "up: expected 'x', 'y' or 'z'"),
@@ -202,3 +203,28 @@ def test_turned_faces_are_named():
 def test_what_is_wrong_is_named(arguments, message):
     with pytest.raises(ValueError, match=message):
         hemilux.view_factors(squares("floor", "wall"), **arguments)
+
+
+def test_factors_that_are_cut_short_say_how_exact_they_are():
+    whole = hemilux.view_factors(boxes(4), 0.01, time=1000)
+    assert whole.matrix.data.tobytes() == hemilux.view_factors(boxes(4), 0.01).matrix.data.tobytes()
+    with pytest.warns(UserWarning, match="the error is"):
+        cut = hemilux.view_factors(boxes(4), 1e-5, time=1e-3)
+    assert cut.audit["error"] > 1e-5
+    assert np.asarray(cut.matrix.sum(axis=1)).ravel() + cut.sky + cut.ground + cut.back == \
+        pytest.approx(1, abs=1e-12)
+
+
+def test_sunlit_shares_of_a_floor_below_a_plate():
+    plate = [[.25, .25, 1], [.25, .75, 1], [.75, .75, 1], [.75, .25, 1]]
+    mesh = hemilux.Mesh(np.concatenate([UNIT_SQUARES["floor"], plate]), [[0, 1, 2, 3], [4, 5, 6, 7]],
+                        ["floor", "plate"], two_sided=True)
+    suns = [[0, 0, -2], [.5, 0, -1], [0, 0, 1]]
+    points = [[.5, .5, 0, 0, 0, 1], [.1, .1, 0, 0, 0, 1]]
+    found = hemilux.sunlit(mesh, suns, points=points)
+    floor = found.name.index("0")
+    assert found.fraction.shape == (3, len(found.name)) and not found.standard_error.any()
+    assert found.fraction[:, floor] == pytest.approx([.75, .875, 0], abs=1e-9)
+    assert found.points.tolist() == [[0, 1], [1, 1], [0, 0]]
+    with pytest.raises(ValueError, match="suns: expected directions that are not 0, 0, 0"):
+        hemilux.sunlit(mesh, [[0, 0, 0]])

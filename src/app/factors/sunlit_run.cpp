@@ -48,27 +48,35 @@ void write_rows(AtomicFile& file, std::size_t sun, std::size_t first,
 
 } // namespace
 
+SunlitShares sunlit_shares(const ViewFactorSettings& settings, const FactorScene& scene,
+                           const Vec3& sun, std::size_t number, std::span<const FactorPoint> points,
+                           Monitor& monitor) {
+    const SunlitOptions options{.error = settings.error,
+                                .seed = hash_words({settings.options.seed, number})};
+    const std::vector<OpenShare> of_patches = sunlit_patches(
+        sun, scene.mesh, scene.tree, options, Workers(settings.options.threads), monitor);
+    SunlitShares shares;
+    if (monitor.interrupted)
+        return shares;
+    shares.surfaces = means_of(scene, of_patches);
+    for (const FactorPoint& point : points)
+        shares.points.push_back({is_sunlit(point, sun, scene.tree) ? 1.0 : 0.0, 0});
+    return shares;
+}
+
 SunlitRun write_sunlit(const std::string& path, const ViewFactorSettings& settings,
                        const FactorScene& scene, std::span<const Vec3> suns,
                        std::span<const FactorPoint> points, std::size_t first_point,
                        Monitor& monitor) {
-    const Workers workers(settings.options.threads);
     AtomicFile file(path);
     file.write("sun,surface,sunlit,standard_error\n");
     SunlitRun run;
     monitor.phase = "sunlight";
     for (std::size_t s = 0; s < suns.size(); ++s) {
         monitor.step_share = static_cast<double>(s) / static_cast<double>(suns.size());
-        const SunlitOptions options{.error = settings.error,
-                                    .seed = hash_words({settings.options.seed, s})};
-        const std::vector<OpenShare> of_patches =
-            sunlit_patches(suns[s], scene.mesh, scene.tree, options, workers, monitor);
+        const auto [means, of_points] = sunlit_shares(settings, scene, suns[s], s, points, monitor);
         if (monitor.interrupted)
             break;
-        const std::vector<OpenShare> means = means_of(scene, of_patches);
-        std::vector<OpenShare> of_points;
-        for (const FactorPoint& point : points)
-            of_points.push_back({is_sunlit(point, suns[s], scene.tree) ? 1.0 : 0.0, 0});
         write_rows(file, s, 0, means);
         write_rows(file, s, first_point, of_points);
         ++run.suns;
