@@ -3,9 +3,9 @@
 
 #include "bvh/wide/wide_bvh.h"
 #include "geometry/frame.h"
+#include "radiosity/engine/pair_factors/free_exchange.h"
 #include "radiosity/engine/point_views/point_factors.h"
 #include "radiosity/engine/point_views/seen_part.h"
-#include "radiosity/engine/pair_factors/free_exchange.h"
 
 #include <cstdint>
 #include <vector>
