@@ -163,7 +163,7 @@ void LineSamples::go_on_to(std::uint32_t lines) {
     for (std::uint32_t before = count_; before > 0 && before < lines; before *= 2)
         for (std::size_t k = 0; k < blocks; ++k)
             sums_[k] = 2 * k < blocks ? sums_[2 * k] + sums_[2 * k + 1] : Vec2(0.0);
-    const std::uint32_t of_block = lines / blocks;
+    const auto of_block = static_cast<std::uint32_t>(lines / blocks);
     for (; count_ < lines; ++count_) {
         const std::array<double, 4> u = places_.at(count_);
         const Vec2 kernel = sample(sampler_.sample({u[0], u[1]}), u[2]);

@@ -105,7 +105,7 @@ void SideRays::go_on_to(std::uint32_t rays) {
     for (std::uint32_t before = count_; before > 0 && before < rays; before *= 2)
         for (std::size_t k = 0; k < blocks; ++k)
             arrived_[k] = 2 * k < blocks ? arrived_[2 * k] + arrived_[2 * k + 1] : 0;
-    const std::uint32_t of_block = rays / blocks;
+    const auto of_block = static_cast<std::uint32_t>(rays / blocks);
     constexpr std::uint32_t at_a_time = 4096;
     const SideDirections directions(mesh_.patches()[patch_].normal, side_);
     const auto start = PatchStart::in_any_axes(mesh_, patch_);
