@@ -68,6 +68,13 @@ std::vector<FactorPlace> places_of(const Doubles& positions, const Doubles& norm
     return places;
 }
 
+py::list names_of(const FactorSurfaces& surfaces) {
+    py::list names;
+    for (const FactorSurface& surface : surfaces.rows)
+        names.append(surface.name);
+    return names;
+}
+
 py::dict audit_of(const ViewFactors& factors, double reciprocity) {
     const ClosingAudit& audit = factors.audit;
     const ExchangeWork& work = factors.work;
@@ -101,13 +108,10 @@ py::array_t<double> open_of(const ViewFactors& factors, double OpenShare::*membe
 
 py::dict result_of(ViewFactors factors, const FactorSurfaces& surfaces, double reciprocity) {
     py::dict result;
-    py::list names;
     std::vector<double> areas;
-    for (const FactorSurface& surface : surfaces.rows) {
-        names.append(surface.name);
+    for (const FactorSurface& surface : surfaces.rows)
         areas.push_back(surface.area);
-    }
-    result["name"] = names;
+    result["name"] = names_of(surfaces);
     result["area"] = array_of(std::move(areas));
     result["open"] = open_of(factors, &OpenShare::factor);
     result["open_standard_error"] = open_of(factors, &OpenShare::standard_error);
@@ -202,11 +206,8 @@ py::dict sunlit(const PythonMesh& mesh, const Doubles& directions, double error,
                 }
         }
     });
-    py::list names;
-    for (const FactorSurface& surface : surfaces.rows)
-        names.append(surface.name);
     py::dict result;
-    result["name"] = names;
+    result["name"] = names_of(surfaces);
     result["sunlit"] = array_of(std::move(fractions));
     result["standard_error"] = array_of(std::move(errors));
     return result;

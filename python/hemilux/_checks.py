@@ -33,6 +33,18 @@ def rows_of_three(name: str, values: Any) -> np.ndarray:
     return array
 
 
+def places_with_normals(name: str, points: Any) -> np.ndarray:
+    """Return points with normals as an array (p, 6), none for None."""
+    if points is None:
+        return np.empty((0, 6))
+    places = np.asarray(points, dtype=float)
+    if places.ndim != 2 or places.shape[1] != 6 or not np.isfinite(places).all():
+        raise ValueError(f"{name}: expected rows of six numbers x, y, z, nx, ny, nz")
+    if not places[:, 3:].any(axis=1).all():
+        raise ValueError(f"{name}: expected a normal that is not 0, 0, 0")
+    return places
+
+
 def whole_numbers(name: str, values: Any) -> np.ndarray:
     """Return an array of int64; fractions are refused, whole numbers in floats too."""
     array = np.asarray(values)

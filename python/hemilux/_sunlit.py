@@ -7,9 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _hemilux
-from ._checks import Progress, rows_of_three, threads_and_seed
+from ._checks import Progress, places_with_normals, rows_of_three, threads_and_seed
 from ._mesh import Mesh
-from ._view_factors import _places
 
 
 class Sunlit(NamedTuple):
@@ -70,7 +69,7 @@ def sunlit(mesh: Mesh, suns: Any, error: float = 0.01, *, by: str = "face", poin
     directions = rows_of_three("suns", suns)
     if not directions.any(axis=1).all():
         raise ValueError("suns: expected directions that are not 0, 0, 0")
-    places = _places("points", points)
+    places = places_with_normals("points", points)
     found = _hemilux.sunlit(mesh._core, directions, float(error), by, chosen_seed, number,
                             places[:, :3], places[:, 3:], progress)
     n = len(found["name"])

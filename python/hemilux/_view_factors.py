@@ -8,7 +8,7 @@ import numpy as np
 import scipy.sparse
 
 from . import _hemilux
-from ._checks import Progress, axis, natural, threads_and_seed, warn
+from ._checks import Progress, axis, natural, places_with_normals, threads_and_seed, warn
 from ._factors import OPEN, PointFactors, ViewFactors
 from ._mesh import Mesh
 
@@ -95,7 +95,7 @@ def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by
         for surfaces that see nothing but backs of faces.
     """
     number, chosen_seed = threads_and_seed(threads, seed)
-    places = _places("points", points)
+    places = places_with_normals("points", points)
     found = _hemilux.view_factors(mesh._core, float(error), of, by, natural("rays", rays, 2**20),
                                   None if time is None else float(time),
                                   mesh._core.up if up is None else axis(up), chosen_seed, number,
@@ -114,18 +114,6 @@ def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by
         result.points = PointFactors(found["points"], n)
     _warn_of(result, of, found["least"], error)
     return result
-
-
-def _places(argument: str, points: Any) -> np.ndarray:
-    """Return points with normals as an array (p, 6), none for None."""
-    if points is None:
-        return np.empty((0, 6))
-    places = np.asarray(points, dtype=float)
-    if places.ndim != 2 or places.shape[1] != 6 or not np.isfinite(places).all():
-        raise ValueError(f"{argument}: expected rows of six numbers x, y, z, nx, ny, nz")
-    if not places[:, 3:].any(axis=1).all():
-        raise ValueError(f"{argument}: expected a normal that is not 0, 0, 0")
-    return places
 
 
 def _warn_of(factors: ViewFactors, of: str, least: float, error: float) -> None:

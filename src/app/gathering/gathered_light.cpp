@@ -149,8 +149,7 @@ ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t see
 /// gathered by as many rays once more, and the mean of both is given out; then in the same way with
 /// twice as many rays as there were. Once that does not help, each place at which light changes
 /// fast gathers by itself: then most of the error lies between the points of the grid, as in small
-/// pictures.
-/// Where the error itself is asked for, more pixels are judged.
+/// pictures. Where the error itself is asked for, more pixels are judged.
 template <class Gather>
 Errors Gathering::gather_until_right(const std::string& what, const ReadError& read, Image& shown,
                                      const Gather& gather, PictureJudge judge) {

@@ -63,6 +63,12 @@ constexpr double state = 300, copies_of_state = 3; ///< of a checkpoint
 /// The bytes of rays that wait to be summed.
 constexpr double bytes_of_ray_batches = 32e6;
 
+/// Returns the bytes of the rows of pixels or texels that are kept until they are finished.
+double bytes_of_rows(double width, double height, unsigned threads) {
+    return bytes_per_pixel_of_rows * width *
+           std::min(height, rows_per_thread * Workers(threads).threads());
+}
+
 struct Lengths {
     double along, across;
 };
@@ -194,16 +200,6 @@ SolveOptions with_memory(SolveOptions options, const SceneSettings& scene, doubl
     }
     return options;
 }
-
-namespace {
-
-/// The bytes of the rows around those that are finished.
-double bytes_of_rows(double width, double height, unsigned threads) {
-    return bytes_per_pixel_of_rows * width *
-           std::min(height, rows_per_thread * Workers(threads).threads());
-}
-
-} // namespace
 
 double bytes_of_picture(PixelSize size, bool gathered, unsigned threads) {
     const double width = size.width, height = size.height;

@@ -192,7 +192,7 @@ SeenShare LineSamples::seen() const {
     const double own = of_independent * squares / (sum.y * sum.y) * count / freedom;
     const double p = (n * result.share + .5) / (n + 1),
                  prior = p * (1 - p) * elementary::pow(std::max(n, 1.0), prior_power);
-    // Half a line may be elsewhere, above all where all lines agree.
+    // A third of a line may be elsewhere, above all where all lines agree.
     const double least = .3 / n;
     result.variance =
         std::max((own * freedom + prior * prior_blocks) / (freedom + prior_blocks), least * least);

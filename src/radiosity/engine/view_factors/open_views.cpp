@@ -134,18 +134,9 @@ void SideRays::go_on_to(std::uint32_t rays) {
 }
 
 OpenShare SideRays::share() const {
-    double sum = 0, squares = 0;
-    for (const std::uint32_t block : arrived_)
-        sum += block;
-    for (const std::uint32_t block : arrived_)
-        squares += (block - sum / blocks) * (block - sum / blocks);
-    // The variance of Student's distribution with so many degrees of freedom.
-    constexpr double freedom = blocks - 1, spread = freedom / (freedom - 2);
-    const double n = count_;
-    const double variance = of_independent * spread * squares * blocks / (freedom * n * n);
-    // Where all blocks agree, half a ray may be elsewhere.
-    const double least = (sum > 0 && sum < n ? .5 : 1.5) / n;
-    return {whole_ * sum / n, whole_ * std::max(std::sqrt(variance), least)};
+    const auto of_block = static_cast<std::uint32_t>(count_ / blocks);
+    const auto [share, error] = share_of_blocks(arrived_, of_block, of_independent);
+    return {whole_ * share, whole_ * error};
 }
 
 std::vector<OpenShare> SideRays::bands() const {

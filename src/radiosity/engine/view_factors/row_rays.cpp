@@ -58,7 +58,7 @@ bool RowRays::may_see_backs(const Patch& patch) {
 void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
     const auto start = PatchStart::in_any_axes(mesh_, patch);
     const std::uint32_t of_batch = rays / batches;
-    std::array<std::array<double, batches>, opens> counts{};
+    std::array<std::array<std::uint32_t, batches>, opens> counts{};
     hit_.clear();
     band_counts_.assign(bands_ ? bands_->size() : 0, 0);
     for (std::uint32_t batch = 0; batch < batches; ++batch) {
@@ -90,20 +90,8 @@ void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
             view.seen.push_back({hit, 1});
         else
             ++view.seen.back().rays;
-    for (std::size_t open = 0; open < opens; ++open) {
-        double sum = 0, squares = 0;
-        for (const double count : counts[open])
-            sum += count;
-        for (const double count : counts[open])
-            squares += (count - sum / batches) * (count - sum / batches);
-        // The variance of Student's distribution with so many degrees of freedom.
-        constexpr double freedom = batches - 1, spread = freedom / (freedom - 2);
-        const double variance = spread * squares / (batches * freedom * of_batch * of_batch);
-        const double share = sum / rays;
-        // Where all batches agree, half a ray may be elsewhere.
-        const double least = (sum > 0 && sum < rays ? .5 : 1.5) / rays;
-        view.open[open] = {share, std::max(std::sqrt(variance), least)};
-    }
+    for (std::size_t open = 0; open < opens; ++open)
+        view.open[open] = share_of_blocks(counts[open], of_batch);
     constexpr double level = 1 - 1e-12;
     const double rise = start.frame.z[up_];
     if (std::abs(rise) >= level)

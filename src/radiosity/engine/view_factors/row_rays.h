@@ -27,11 +27,9 @@ struct RowView {
     std::vector<OpenShare> bands; ///< of the sky
 };
 
-/// The rays of a row are independent batches of scrambled Sobol points, whose spread is the error.
-/// Where no ray, or each, went one way, the error is half of what is possible in 95 % of all cases:
-/// three rays of so many. It is 0 where no direction of the patch goes that way, or no back faces
-/// it. Reusable memory of
-/// one thread.
+/// The rays of a row are independent batches of scrambled Sobol points, whose spread is the error
+/// (share_of_blocks). It is 0 where no direction of the patch goes one way, or no back faces it.
+/// Reusable memory of one thread.
 class RowRays {
   public:
     static constexpr std::uint32_t batches = 16;
