@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -65,7 +66,7 @@ class Layers {
     }
 
     /// Returns whether it came to the end before a signal.
-    [[nodiscard]] bool find_patches(const Relighting& rays);
+    [[nodiscard]] bool find_patches(const KeepsRays& solver);
     [[nodiscard]] bool gather();
     [[nodiscard]] LampLight result() { return std::move(found_); }
 
@@ -81,13 +82,14 @@ class Layers {
     double all_power_ = 0;
 };
 
-bool Layers::find_patches(const Relighting& rays) {
+bool Layers::find_patches(const KeepsRays& solver) {
     const Mesh& mesh = run_.scene.mesh;
+    const std::unique_ptr<Relighting> rays = solver.relighting(workers_);
     for (std::uint32_t k = 0; k < found_.lamps.layers.size(); ++k) {
         const LampLayer& layer = found_.lamps.layers[k];
         const std::uint64_t before = monitor_.rays;
         std::optional<Relit> light =
-            rays.light_of(lit_by_layer(mesh, found_.lamps, k),
+            rays->light_of(lit_by_layer(mesh, found_.lamps, k),
                           mean_of_channels(layer.power) / all_power_, workers_);
         if (!light)
             return false;
@@ -207,10 +209,10 @@ LampLight find_lamp_light(const SolveSettings& settings, const LitRun& run, Moni
         return {};
     const Stage stage("lighting by each lamp", settings.verbosity);
     const Stopwatch watch;
-    const auto* const rays = dynamic_cast<const Relighting*>(&run.solver);
+    const auto* const solver = dynamic_cast<const KeepsRays*>(&run.solver);
     Layers layers(settings, run, monitor, statistics);
-    if (!rays || run.solver.solution().steps == 0 || monitor.interrupted ||
-        !layers.find_patches(*rays) || (settings.ranks->is_first() && !layers.gather())) {
+    if (!solver || run.solver.solution().steps == 0 || monitor.interrupted ||
+        !layers.find_patches(*solver) || (settings.ranks->is_first() && !layers.gather())) {
         statistics.layers.clear();
         log_line(settings.verbosity, Verbosity::quiet,
                  "interrupted; the outputs hold the light of all lamps together");

@@ -47,7 +47,8 @@ GatherGrid grid_of(const TexelMap& texels, const std::vector<bool>& covered,
     return {columns, columns, std::move(points)};
 }
 
-/// Texels that gather by themselves share it up to this many steps, whatever is near.
+/// Texels that gather by themselves share it up to this many steps, whatever is near, if nothing
+/// stands between them.
 constexpr float least_reach = 1.6f;
 
 /// What was gathered at a texel.
@@ -60,6 +61,9 @@ struct TexelLight {
     glm::vec3 of_points;
     float reach = 0; ///< PictureGather::Light::reach
 
+    [[nodiscard]] SurfacePoint place() const {
+        return {.position = Vec3(position), .normal = Vec3(normal), .facet = none};
+    }
     [[nodiscard]] bool is_beside(const TexelLight& other) const {
         return chart == other.chart && is_same_surface(Vec3(position), Vec3(normal),
                                                        Vec3(other.position), Vec3(other.normal));
@@ -68,9 +72,9 @@ struct TexelLight {
 
 class TexelGather {
   public:
-    TexelGather(const TexelMap& texels, const std::vector<bool>& covered,
+    TexelGather(const Tracer& tracer, const TexelMap& texels, const std::vector<bool>& covered,
                 const PictureGather& gather)
-        : texels_(texels), covered_(covered), gather_(gather),
+        : tracer_(tracer), texels_(texels), covered_(covered), gather_(gather),
           rows_(static_cast<std::size_t>(texels.size())) {}
 
     /// Calls add(texel, irradiance) for each texel that is not covered, in several threads.
@@ -83,6 +87,7 @@ class TexelGather {
     void gather_rows(int first, int end);
     [[nodiscard]] glm::vec3 irradiance(int x, int y) const;
 
+    const Tracer& tracer_;
     const TexelMap& texels_;
     const std::vector<bool>& covered_;
     const PictureGather& gather_;
@@ -168,8 +173,9 @@ glm::vec3 TexelGather::irradiance(int x, int y) const {
                 continue;
             const glm::vec3 way = (there.position - here.position) / here.reach;
             const float steps = float(dx * dx + dy * dy) / (least_reach * least_reach),
-                        near = 1 - std::min(glm::dot(way, way), steps);
-            if (near > 0)
+                        square = glm::dot(way, way), near = 1 - std::min(square, steps);
+            if (near > 0 && (double(square) < free_reach * free_reach ||
+                             !tracer_.occluded(ray_between(here.place(), there.place()))))
                 slow.add({dx, dy}, there.slow, double(weight * near));
         }
     const auto [unshadowed, indirect] = slow.solve().light;
@@ -201,7 +207,7 @@ GatheredLightmap gather_lightmap(const Mesh& mesh, const Tracer& tracer, const S
                               std::vector<bool>(texels.count())};
     for (std::size_t k = 0; k < lightmap.known.size(); ++k)
         lightmap.known[k] = texels.shows(k) && !covered[k];
-    TexelGather(texels, covered, gather)
+    TexelGather(tracer, texels, covered, gather)
         .run(options.check, workers, [&](std::size_t texel, const glm::vec3& irradiance) {
             lightmap.image.pixels[texel] =
                 options.bake == Bake::radiosity

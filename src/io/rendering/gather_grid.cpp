@@ -11,20 +11,12 @@ namespace {
 
 constexpr Vec2 pixel_centre(.5);
 
-/// Surfaces whose normals differ by more than this cosine have light of their own.
-constexpr double alike = .9;
-
-/// A point belongs to the surface of another up to this distance from its plane, as a share of the
-/// distance between them.
-constexpr double flatness = .2;
-
 } // namespace
 
-bool is_same_surface(const Vec3& a, const Vec3& normal_a, const Vec3& b, const Vec3& normal_b) {
-    const Vec3 way = b - a;
-    const double off = glm::dot(normal_a, way);
-    return glm::dot(normal_a, normal_b) > alike &&
-           off * off <= flatness * flatness * glm::dot(way, way);
+Ray ray_between(const SurfacePoint& a, const SurfacePoint& b) {
+    const double height = .5 * glm::distance(a.position, b.position);
+    const Vec3 from = a.position + height * a.normal, to = b.position + height * b.normal;
+    return {.origin = from, .direction = to - from, .t_max = 1};
 }
 
 GatherGrid::GatherGrid(const Mesh& mesh, const CameraRays& camera, int width, int height,

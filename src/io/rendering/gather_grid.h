@@ -2,6 +2,7 @@
 // The points of a picture at which light is gathered: one at every second pixel of every second
 // row, where a surface is visible.
 
+#include "bvh/tracer.h"
 #include "io/rendering/visible_facets.h"
 #include "parallel/workers.h"
 #include "radiosity/light/final_gather/surface_points.h"
@@ -15,8 +16,20 @@
 namespace hemilux {
 
 /// Returns whether two points with unit normals belong to one surface, which may be bent a little.
-[[nodiscard]] bool is_same_surface(const Vec3& a, const Vec3& normal_a, const Vec3& b,
-                                   const Vec3& normal_b);
+/// The normals' cosine says how much; so does the second one's distance from the plane of the first
+/// as a share of their distance.
+[[nodiscard]] inline bool is_same_surface(const Vec3& a, const Vec3& normal_a, const Vec3& b,
+                                          const Vec3& normal_b) {
+    constexpr double alike = .9, flatness = .2;
+    const Vec3 way = b - a;
+    const double off = glm::dot(normal_a, way);
+    return glm::dot(normal_a, normal_b) > alike &&
+           off * off <= flatness * flatness * glm::dot(way, way);
+}
+
+/// Returns a ray between two points of one surface, which meets what stands between them and is
+/// higher than half of their distance.
+[[nodiscard]] Ray ray_between(const SurfacePoint& a, const SurfacePoint& b);
 
 /// The results of a point's shadow rays, as bits: both together say that some rays were blocked.
 enum Shadow : std::uint8_t { none_blocked = 1, all_blocked = 2 };

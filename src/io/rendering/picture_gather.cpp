@@ -62,7 +62,7 @@ PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, const Surfa
                              GatherGrid grid, const PictureGatherOptions& options,
                              const Workers& workers)
     : options_(options), in_parts_(mesh, tracer, light, options.only_reflected),
-      grid_(std::move(grid)), light_(grid_) {
+      grid_(std::move(grid)), light_(grid_, tracer) {
     gather([&](int, int) { return std::max(1u, options_.rays / 4); }, Shadows::traced, workers);
     grid_.ask_neighbours(workers);
     judge_points(workers);

@@ -21,16 +21,48 @@ constexpr double min_steps = 2.5;
 /// is as wide as squares of the sequence of samples.
 double ends(int step) { return std::abs(step) == reach_points ? .5 : 1; }
 
+/// Returns the inverse of the distance within which points share their light.
+double inverse_reach(const GridPoint& here, const GridPoint& there) {
+    return double(std::max(here.nearness, there.nearness)) / reach_share;
+}
+
+/// Returns whether points are so near each other that nothing can stand between them.
+bool is_near(const GridPoint& here, const GridPoint& there) {
+    const Vec3 way = (there.at.position - here.at.position) * inverse_reach(here, there);
+    return glm::dot(way, way) < free_reach * free_reach;
+}
+
 /// Returns the weight of a point for the mean around another; 0 or less where it is too far away or
 /// of another surface. `most` is the inverse of a distance within which none is too far.
 double weight_of(const GridPoint& here, const GridPoint* there, double most) {
     if (!there || !here.is_of_surface(*there))
         return 0;
-    const Vec3 way = there->at.position - here.at.position;
-    const double share =
-        std::min(double(std::max(here.nearness, there->nearness)) / reach_share, most);
-    return 1 - share * share * glm::dot(way, way);
+    const Vec3 way =
+        (there->at.position - here.at.position) * std::min(inverse_reach(here, *there), most);
+    return 1 - glm::dot(way, way);
 }
+
+/// The points around another that something may hide from it.
+struct Doubtful {
+    struct Point {
+        Vec2 offset;
+        const GridPoint* there;
+        double weight;
+    };
+    std::vector<Point> points;
+    std::vector<Ray> rays;
+    std::vector<std::uint8_t> blocked; ///< by point: 1 or 0
+
+    void add(const Vec2& offset, const GridPoint& there, double weight, const GridPoint& here) {
+        points.push_back({offset, &there, weight});
+        rays.push_back(ray_between(here.at, there.at));
+    }
+    void trace(const Tracer& tracer) {
+        const std::vector<std::uint32_t> targets(rays.size(), none);
+        blocked.resize(rays.size());
+        tracer.occluded_stream(rays, targets, blocked);
+    }
+};
 
 } // namespace
 
@@ -76,13 +108,25 @@ void SlowLightField::fit(int stride, const std::function<void()>& check, const W
             const double most = 1 / (min_steps * grid_.spacing(x, y));
             const std::size_t number = grid_.number_of(here);
             SlowLightFit fit(light_[number]);
+            Doubtful doubtful;
             for (int dy = -reach_points; dy <= reach_points; ++dy)
                 for (int dx = -reach_points; dx <= reach_points; ++dx) {
                     const GridPoint* const there = grid_.point(x + stride * dx, y + stride * dy);
                     const double weight = ends(dx) * ends(dy) * weight_of(here, there, most);
-                    if (weight > 0 && there != &here)
+                    if (!(weight > 0) || there == &here)
+                        continue;
+                    if (is_near(here, *there))
                         fit.add({dx, dy}, light_[grid_.number_of(*there)], weight);
+                    else
+                        doubtful.add({dx, dy}, *there, weight, here);
                 }
+            doubtful.trace(tracer_);
+            for (std::size_t k = 0; k < doubtful.points.size(); ++k)
+                if (const auto& [offset, there, weight] = doubtful.points[k];
+                    doubtful.blocked[k] == 0)
+                    fit.add(offset, light_[grid_.number_of(*there)], weight);
+                else
+                    at_barrier_[number] = 1;
             const auto& [light, slope] = fit.solve();
             fitted[number] = light;
             constexpr double enough = 10; // points that are wide apart know a slope better
@@ -107,7 +151,9 @@ SlowLightField::interpolate(const SurfacePoint& at, const Vec2& pixel, std::uint
         for (int dy = -ring; dy <= 1 + ring; ++dy)
             for (int dx = -ring; dx <= 1 + ring; ++dx) {
                 const GridPoint* const there = grid_.point(left + dx, top + dy);
-                if (!there || !there->is_of_surface(at, part))
+                if (!there || !there->is_of_surface(at, part) ||
+                    (at_barrier_[grid_.number_of(*there)] != 0 &&
+                     tracer_.occluded(ray_between(there->at, at))))
                     continue;
                 const Vec3 way = there->at.position - at.position;
                 const double share = double(there->nearness) / reach_share;

@@ -23,15 +23,20 @@ namespace hemilux {
 /// The number of points in each direction over which a point averages.
 inline constexpr int reach_points = 4;
 
+/// The share of reach_of() within which nothing can stand between two points. It is less than 1, as
+/// a few rays estimate nearness badly.
+inline constexpr double free_reach = .5;
+
 /// Returns the distance from a point within which the light is taken to be about the same, in local
 /// units.
 [[nodiscard]] double reach_of(double nearness);
 
 class SlowLightField {
   public:
-    /// The grid must outlive this object and may still change.
-    explicit SlowLightField(const GatherGrid& grid)
-        : grid_(grid), light_(grid.size()), slope_(grid.size()) {}
+    /// Both must outlive this object; the grid may still change.
+    SlowLightField(const GatherGrid& grid, const Tracer& tracer)
+        : grid_(grid), tracer_(tracer), light_(grid.size()), slope_(grid.size()),
+          at_barrier_(grid.size()) {}
 
     /// Returns the light of a point of the grid, by its number.
     [[nodiscard]] SlowLight& at(std::size_t point) { return light_[point]; }
@@ -61,9 +66,12 @@ class SlowLightField {
 
   private:
     const GatherGrid& grid_;
+    const Tracer& tracer_;
     std::vector<SlowLight> light_; ///< by point
     /// The change of the light from a point to the next one on the right, and in the next row.
     std::vector<std::array<SlowLight, 2>> slope_;
+    /// Something stands between the point and another near it, by point: 1 or 0.
+    std::vector<std::uint8_t> at_barrier_;
 };
 
 } // namespace hemilux

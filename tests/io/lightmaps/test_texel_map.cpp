@@ -54,6 +54,32 @@ struct BlockOnFloor {
 
 } // namespace
 
+TEST_CASE("light does not cross a wall that is thinner than a texel") {
+    Scene scene;
+    scene.groups = {"floor"};
+    scene.materials = {
+        {"white", Vec3(.8), Vec3(0)}, {"lamp", Vec3(0), Vec3(10)}, {"black", Vec3(0), Vec3(0)}};
+    add_quad(scene, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, 1, 1, 0);
+    add_quad(scene, {1, 1, -.1}, {1.2, 1, -.1}, {1.2, 1, .1}, {1, 1, .1}, 1, 1, 1);
+    add_quad(scene, {1.9, 0, -2}, {1.9, 0, 2}, {1.9, 1.5, 2}, {1.9, 1.5, -2}, 1, 1, 0);
+    for (const double side : {-1., 1.}) // low enough that no light comes over it
+        add_quad(scene, {.02, 0, -2 * side}, {.02, 2, -2 * side}, {.02, 2, 2 * side},
+                 {.02, 0, 2 * side}, 1, 1, 2);
+    const Model model(std::move(scene));
+    constexpr int size = 32;
+    const TexelMap texels(model.mesh, BlockOnFloor::placed(model.mesh, size), size);
+    const Solution solution = solve(model, *find_method("stored-transport"), {}, steps(2));
+    const SurfaceLight light(model.mesh, PatchLight(solution));
+    const GatheredLightmap lightmap =
+        gather_lightmap(model.mesh, model.bvh, light, texels, std::vector<bool>(texels.count()),
+                        {.bake = Bake::irradiance, .rays = 16}, Workers(2));
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size / 2; ++x)
+            CHECK(lightmap.image.at(x, y).x <= .005 * lightmap.image.at(size / 2 + 1, y).x);
+        CHECK(lightmap.image.at(size / 2 + 1, y).x > 0);
+    }
+}
+
 TEST_CASE("a texel shows the point at its middle, and the nearest one beside a chart") {
     const Mesh mesh(box_room({0, 0, 0}, {3, 2, 5}, 2, {{"a", Vec3(0.5), Vec3(1)}}, {}));
     constexpr int size = 128;

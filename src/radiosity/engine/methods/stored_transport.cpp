@@ -61,7 +61,7 @@ constexpr double merging = 3.5;
 /// errors, the plan of its rays.
 constexpr double bytes_per_patch = 1300;
 
-class StoredTransportSolver final : public Solver, public Relighting {
+class StoredTransportSolver final : public Solver, public KeepsRays {
   public:
     explicit StoredTransportSolver(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
@@ -115,10 +115,10 @@ class StoredTransportSolver final : public Solver, public Relighting {
             throw StateError("steps were done without a plan");
     }
 
-    [[nodiscard]] std::optional<Relit> light_of(const Mesh& mesh, double share,
-                                                const Workers& workers) const override;
+    [[nodiscard]] std::unique_ptr<Relighting> relighting(const Workers& workers) const override;
 
   private:
+    class ByItsRays;
     static RayPlan first_plan(const SolverInput& input, bool shadow_rays) {
         const double each = input.options.rays / (shadow_rays ? 2 * batches : batches);
         return {input.mesh, input.needs, each, shadow_rays ? each : 0,
@@ -271,45 +271,75 @@ class StoredTransportSolver final : public Solver, public Relighting {
                   traced_before_ = 0; ///< rays in all, and when the last step was planned
 };
 
-/// The solution of the batches' rays for other emitters, with the spread of the batches.
-std::optional<Relit> StoredTransportSolver::light_of(const Mesh& mesh, double share,
-                                                     const Workers& workers) const {
-    const StopFlag& interrupted = input_.monitor.interrupted;
-    std::vector<std::uint32_t> emitters, samples;
-    const auto material_of = [](const Mesh& of, std::uint32_t patch) {
-        return of.scene().facets[of.patches()[patch].facet].material;
-    };
-    for (const std::uint32_t emitter : rays_.emitters()) // all of a facet or none
-        if (material_of(mesh, emitter) == material_of(input_.mesh, emitter))
-            emitters.push_back(emitter);
-    constexpr double least = 4;
-    for (const std::uint32_t planned : plan_.rays().to_emitters)
-        samples.push_back(planned > 0 ? std::uint32_t(std::ceil(std::max(share * planned, least)))
-                                      : 0);
-    std::vector<std::uint64_t> seeds;
-    for (std::uint64_t s = 0; s < batches; ++s)
-        seeds.push_back(hash_words({input_.options.seed, s, light_.generation(), 2}));
-    DirectLight shadow_rays(mesh, input_.tracer, input_.needs, emitters, std::move(seeds),
-                            ranks_of(interrupted));
-    shadow_rays.sample_up_to(samples, workers, input_.monitor);
-    const TransportSystem system(mesh, emitters, input_.needs.closed,
-                                 power_of_points(mesh, input_.tracer));
-    BatchLight light(mesh.patches().size());
-    (void)system.solve(rays_.counts(), shadow_rays, std::numeric_limits<double>::quiet_NaN(),
-                       light.solved(), workers, interrupted);
-    if (interrupted)
-        return std::nullopt;
-    Relit relit;
-    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
-        Vec3 squares(0.0);
-        for (const Vec3& off : light.deviations(i))
-            squares += off * off;
-        const Vec3& reflectance = system.reflectance()[i];
-        relit.radiosity.push_back(system.emission()[i] + reflectance * light.incident(batches, i));
-        relit.standard_error.push_back(reflectance *
-                                       glm::sqrt(squares / double(batches * (batches - 1))));
+/// The light is the mean of the solutions by the batches' rays, its error their spread.
+class StoredTransportSolver::ByItsRays final : public Relighting {
+  public:
+    ByItsRays(const StoredTransportSolver& solver, const Workers& workers)
+        : solver_(solver), factors_(solver.system_.factors(solver.rays_.counts(), workers)) {}
+
+    [[nodiscard]] std::optional<Relit> light_of(const Mesh& mesh, double share,
+                                                const Workers& workers) const override {
+        const Monitor& monitor = solver_.input_.monitor;
+        const std::vector<std::uint32_t> emitters = emitters_in(mesh);
+        DirectLight shadow_rays = shadow_rays_to(emitters, mesh);
+        shadow_rays.sample_up_to(samples(share), workers, solver_.input_.monitor);
+        const TransportSystem system(mesh, emitters, solver_.input_.needs.closed,
+                                     power_of_points(mesh, solver_.input_.tracer));
+        BatchLight light(mesh.patches().size());
+        system.solve_batches(factors_, shadow_rays, std::numeric_limits<double>::quiet_NaN(),
+                             light.solved(), workers, monitor.interrupted);
+        if (monitor.interrupted)
+            return std::nullopt;
+        Relit relit;
+        for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+            Vec3 squares(0.0);
+            for (const Vec3& off : light.deviations(i))
+                squares += off * off;
+            const Vec3& reflectance = system.reflectance()[i];
+            relit.radiosity.push_back(system.emission()[i] +
+                                      reflectance * light.incident(batches, i));
+            relit.standard_error.push_back(reflectance *
+                                           glm::sqrt(squares / double(batches * (batches - 1))));
+        }
+        return relit;
     }
-    return relit;
+
+  private:
+    /// Returns those of the solver's emitters that emit in this mesh; all of a facet or none.
+    [[nodiscard]] std::vector<std::uint32_t> emitters_in(const Mesh& mesh) const {
+        const auto material_of = [](const Mesh& of, std::uint32_t patch) {
+            return of.scene().facets[of.patches()[patch].facet].material;
+        };
+        std::vector<std::uint32_t> emitters;
+        for (const std::uint32_t emitter : solver_.rays_.emitters())
+            if (material_of(mesh, emitter) == material_of(solver_.input_.mesh, emitter))
+                emitters.push_back(emitter);
+        return emitters;
+    }
+    [[nodiscard]] DirectLight shadow_rays_to(std::span<const std::uint32_t> emitters,
+                                             const Mesh& mesh) const {
+        const SolverInput& input = solver_.input_;
+        std::vector<std::uint64_t> seeds;
+        for (std::uint64_t s = 0; s < batches; ++s)
+            seeds.push_back(hash_words({input.options.seed, s, solver_.light_.generation(), 2}));
+        return {mesh,     input.tracer,     input.needs,
+                emitters, std::move(seeds), ranks_of(input.monitor.interrupted)};
+    }
+    [[nodiscard]] std::vector<std::uint32_t> samples(double share) const {
+        constexpr double least = 4;
+        std::vector<std::uint32_t> samples;
+        for (const std::uint32_t planned : solver_.plan_.rays().to_emitters)
+            samples.push_back(
+                planned > 0 ? std::uint32_t(std::ceil(std::max(share * planned, least))) : 0);
+        return samples;
+    }
+
+    const StoredTransportSolver& solver_;
+    std::vector<ExchangeMatrix> factors_; ///< by batch
+};
+
+std::unique_ptr<Relighting> StoredTransportSolver::relighting(const Workers& workers) const {
+    return std::make_unique<ByItsRays>(*this, workers);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "geometry/vector.h"
 #include "radiosity/paper/solution/solution.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,14 @@ class Relighting {
     /// interrupted.
     [[nodiscard]] virtual std::optional<Relit> light_of(const Mesh& mesh, double share,
                                                         const Workers& workers) const = 0;
+};
+
+/// A solver that can do so.
+class KeepsRays {
+  public:
+    virtual ~KeepsRays() = default;
+    /// Prepares what all emitters have in common. The solver must outlive the result and not go on.
+    [[nodiscard]] virtual std::unique_ptr<Relighting> relighting(const Workers& workers) const = 0;
 };
 
 } // namespace hemilux

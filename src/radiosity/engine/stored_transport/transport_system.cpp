@@ -54,19 +54,27 @@ TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t
         sampled_emission_[emitter] = Vec3(0.0);
 }
 
-/// Solves each batch by itself; then the whole by all threads, from where the batches' mean is.
-TransportSystem::Solved TransportSystem::solve(std::span<const RayCounts> counts,
-                                               const DirectLight& shadow_rays, double error,
-                                               std::vector<BatchLight::Light>& light,
-                                               const Workers& workers,
-                                               const StopFlag& interrupted) const {
-    const std::size_t batches = counts.size();
-    std::vector<ExchangeMatrix> parts(batches);
+std::vector<ExchangeMatrix> TransportSystem::factors(std::span<const RayCounts> counts,
+                                                     const Workers& workers) const {
+    std::vector<ExchangeMatrix> factors(counts.size());
+    for_batches(counts.size(), counts[0].own_rows().ranks(), workers,
+                [&](std::size_t batch, const Workers& own) {
+                    factors[batch] = ExchangeMatrix(surfaces_.area, counts[batch], own);
+                });
+    return factors;
+}
+
+TransportSystem::SolvedBatches TransportSystem::solve_batches(std::span<const ExchangeMatrix> parts,
+                                                              const DirectLight& shadow_rays,
+                                                              double error,
+                                                              std::vector<BatchLight::Light>& light,
+                                                              const Workers& workers,
+                                                              const StopFlag& interrupted) const {
+    const std::size_t batches = parts.size();
     std::vector<std::vector<Vec3>> direct(batches);
     std::vector<Vec3> power(batches);
-    const Ranks& ranks = counts[0].own_rows().ranks();
+    const Ranks& ranks = parts[0].own_rows().ranks();
     for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
-        parts[batch] = ExchangeMatrix(surfaces_.area, counts[batch], own);
         direct[batch] = straight_light(parts[batch], shadow_rays, batch, own);
         power[batch] = power_arriving(transport(parts[batch]), direct[batch]);
     });
@@ -74,19 +82,32 @@ TransportSystem::Solved TransportSystem::solve(std::span<const RayCounts> counts
     // What a residual makes of the light is no larger than its sum over all reflections.
     const double known = std::fmin(left_of_batches * error, first_residual); // unknown: the latter
     const double residual = std::max(known * lost_at_least_, min_residual);
-    std::vector<double> left(batches + 1); // residuals that are too large
+    std::vector<double> left(batches); // residuals that are too large
     for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
         left[batch] = solve(parts[batch], std::move(direct[batch]), variance,
                             light_of_points(shadow_rays, batch, area().size()), light[batch], own,
                             residual, interrupted);
     });
+    return {*std::ranges::max_element(left), variance, average(light)};
+}
+
+/// Solves each batch by itself; then the whole by all threads, from where the batches' mean is.
+TransportSystem::Solved TransportSystem::solve(std::span<const RayCounts> counts,
+                                               const DirectLight& shadow_rays, double error,
+                                               std::vector<BatchLight::Light>& light,
+                                               const Workers& workers,
+                                               const StopFlag& interrupted) const {
+    const std::size_t batches = counts.size();
+    std::vector<ExchangeMatrix> parts = factors(counts, workers);
+    const SolvedBatches solved =
+        solve_batches(parts, shadow_rays, error, light, workers, interrupted);
     ExchangeMatrix all(std::move(parts), workers);
-    const double tolerance = left_of_all * average(light) * lost_at_least_;
-    left[batches] =
+    const double tolerance = left_of_all * solved.error * lost_at_least_;
+    const double left =
         solve(all, straight_light(all, shadow_rays, std::nullopt, workers),
-              variance / double(batches), light_of_points(shadow_rays, {}, area().size()),
+              solved.variance / double(batches), light_of_points(shadow_rays, {}, area().size()),
               light[batches], workers, std::max(tolerance, min_residual), interrupted);
-    const double max_left = *std::ranges::max_element(left);
+    const double max_left = std::max(solved.left, left);
     const double unsolved = max_left > 0 ? unsolved_error(max_left, lost_at_least_) : 0;
     return {std::move(all), unsolved};
 }

@@ -51,6 +51,22 @@ class TransportSystem {
     /// Returns whether the geometry proves that no ray is lost.
     [[nodiscard]] bool closed() const { return closed_; }
 
+    /// Returns the factors of each batch of rays. They refer to areas of this object.
+    [[nodiscard]] std::vector<ExchangeMatrix> factors(std::span<const RayCounts> counts,
+                                                      const Workers& workers) const;
+    /// Solves for `light`, of each batch of factors and of the estimates of `shadow_rays`, from
+    /// what `light` holds; the last light is then their mean. `error` is the relative one of what
+    /// is known so far; nan where it is unknown. Where solving is interrupted `light` is of no use.
+    struct SolvedBatches {
+        double left = 0;    ///< relative residual where it is larger than it should be, else 0 [-]
+        Vec3 variance{0.0}; ///< of the power that arrives straight from emitters, by channel
+        double error = 0;   ///< relative standard error of what is reflected [-]
+    };
+    SolvedBatches solve_batches(std::span<const ExchangeMatrix> batches,
+                                const DirectLight& shadow_rays, double error,
+                                std::vector<BatchLight::Light>& light, const Workers& workers,
+                                const StopFlag& interrupted) const;
+
     /// The factors of all batches, and how well the system was solved.
     struct Solved {
         ExchangeMatrix factors;
@@ -58,10 +74,8 @@ class TransportSystem {
         /// ended at their limit [-], which may be infinite; else 0 (unsolved_light.h).
         double unsolved = 0;
     };
-    /// Solves for `light`, of each batch of `counts` and of the estimates of `shadow_rays`, and at
-    /// last of all, as exactly as the noise of these rays allows. It starts from what `light`
-    /// holds. `error` is the relative one of what is known so far; nan where it is unknown. Where
-    /// solving is interrupted `light` is of no use.
+    /// Solves for `light` of each batch of `counts`, as above, and at last of all, as exactly as
+    /// the noise of these rays allows.
     [[nodiscard]] Solved solve(std::span<const RayCounts> counts, const DirectLight& shadow_rays,
                                double error, std::vector<BatchLight::Light>& light,
                                const Workers& workers, const StopFlag& interrupted) const;
