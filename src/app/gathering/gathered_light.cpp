@@ -85,11 +85,11 @@ void average(Image& light, const Image& other) {
 class Gathering {
   public:
     Gathering(const SolveSettings& settings, const LitScene& scene, const Solution& solution,
-              Monitor& monitor, Statistics& statistics)
+              Monitor& monitor, Statistics& statistics, const std::optional<WholeLight>& whole)
         : settings_(settings), scene_(scene), solution_(solution), monitor_(monitor),
           statistics_(statistics), workers_(settings.options.threads),
           time_(monitor.interrupted.own().wished), limits_(settings.stop),
-          error_(error_of_gathered(settings)) {
+          error_(error_of_gathered(settings)), whole_(whole) {
         light_.cache = std::make_unique<LightCache>(scene.mesh, scene.tracer, solution);
     }
 
@@ -100,10 +100,13 @@ class Gathering {
     [[nodiscard]] GatheredLight finish();
 
   private:
+    [[nodiscard]] double error_at(double level, double TargetLevel::*of) const;
     [[nodiscard]] bool find_sensors(std::span<const NamedPoint> points);
     void log_end_of_points(std::size_t points) const;
     [[nodiscard]] ReadError learn(std::span<const TargetPart> target, std::uint64_t seed,
                                   std::optional<double> seconds = {});
+    ReadError learn_to(double error, std::span<const TargetPart> target, std::uint64_t seed,
+                       std::optional<double> seconds);
     template <class Gather>
     Errors gather_until_right(const std::string& what, const ReadError& read, Image& shown,
                               const Gather& gather, PictureJudge judge);
@@ -125,16 +128,38 @@ class Gathering {
     /// The light at points may take as long as the solution may, and the rays that it leaves.
     const StopRule& limits_;
     Stopwatch started_;
-    double error_;
+    double error_; ///< that was asked for
+    const std::optional<WholeLight>& whole_;
     GatheredLight light_;
     bool shows_patches_ = false;   ///< some lightmap, after a signal
     std::optional<Errors> errors_; ///< the larger ones of points and of the picture
 };
 
+/// Returns the relative error that the present target may have, by its own level; 0: unknown yet.
+double Gathering::error_at(double level, double TargetLevel::*of) const {
+    if (!whole_)
+        return error_;
+    const double most = std::max(error_, whole_->own_error);
+    const std::size_t target = light_.levels.size();
+    if (!(level > 0) || target >= whole_->levels.size())
+        return most;
+    return std::clamp(whole_->error * whole_->levels[target].*of / level, error_, most);
+}
+
+/// Learns the light of the next target. How bright a part of the light is there shows itself.
 ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t seed,
                            std::optional<double> seconds) {
+    const double first = error_at(0, &TargetLevel::read);
+    ReadError found = learn_to(first, target, seed, seconds);
+    if (const double then = error_at(found.level, &TargetLevel::read); then < first)
+        found = learn_to(then, target, hash_words({seed}), seconds);
+    return found;
+}
+
+ReadError Gathering::learn_to(double error, std::span<const TargetPart> target, std::uint64_t seed,
+                              std::optional<double> seconds) {
     LearnOptions options =
-        learn_options(settings_, share_of_read * error_, seed, solution_, statistics_);
+        learn_options(settings_, share_of_read * error, seed, solution_, statistics_);
     options.seconds = seconds;
     const Stage stage("learning the light", settings_.verbosity);
     const Stopwatch watch;
@@ -149,7 +174,8 @@ ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t see
 /// gathered by as many rays once more, and the mean of both is given out; then in the same way with
 /// twice as many rays as there were. Once that does not help, each place at which light changes
 /// fast gathers by itself: then most of the error lies between the points of the grid, as in small
-/// pictures. Where the error itself is asked for, more pixels are judged.
+/// pictures. Where the error itself is asked for, more pixels are judged. A part of the light need
+/// not be surely as exact as it may be, as its error is told.
 template <class Gather>
 Errors Gathering::gather_until_right(const std::string& what, const ReadError& read, Image& shown,
                                      const Gather& gather, PictureJudge judge) {
@@ -158,6 +184,7 @@ Errors Gathering::gather_until_right(const std::string& what, const ReadError& r
     constexpr double helps = .85;
     Errors errors{read};
     std::uint64_t judged = 1; // by so many times the usual pixels
+    double asked = error_at(0, &TargetLevel::shown), level = 0;
     const auto judge_by = [&](std::uint64_t more) {
         judged = more;
         const Stage stage("judging the " + what, settings_.verbosity);
@@ -168,10 +195,12 @@ Errors Gathering::gather_until_right(const std::string& what, const ReadError& r
         errors.noise = own.error;
         errors.noise_uncertainty = own.uncertainty;
         errors.noise_local = own.local;
+        level = own.level;
+        asked = error_at(level, &TargetLevel::shown);
     };
     double before = std::numeric_limits<double>::infinity();
     bool alone = false;
-    unsigned rays = settings_.gather.value_or(rays_for(error_)); // of the next round
+    unsigned rays = settings_.gather.value_or(rays_for(asked)); // of the next round
     for (unsigned round = 0;; ++round) {
         try {
             const Stage stage("gathering the " + what, settings_.verbosity);
@@ -191,14 +220,14 @@ Errors Gathering::gather_until_right(const std::string& what, const ReadError& r
         }
         judge_by(1);
         // Few pixels may happen to hold much: more of them cost less than to gather again.
-        for (std::uint64_t more = 4; more <= 16 && errors.is_in_doubt(error_); more *= 4)
+        for (std::uint64_t more = 4; more <= 16 && !whole_ && errors.is_in_doubt(asked); more *= 4)
             judge_by(more);
         log_line(settings_.verbosity, Verbosity::verbose,
                  what + " by " + counted(errors.rays, "ray", "rays") +
                      " a point: its own error is " + percent(errors.noise) +
                      ", that of the light which it reads " + percent(errors.read.error));
-        if (settings_.gather || errors.bound() <= error_ || 2 * errors.rays > max_rays ||
-            !(errors.read.bound <= error_) || monitor_.interrupted)
+        if (settings_.gather || (whole_ ? errors.whole() : errors.bound()) <= asked ||
+            2 * errors.rays > max_rays || !(errors.read.bound <= asked) || monitor_.interrupted)
             break;
         if (errors.noise > helps * before && std::exchange(alone, true))
             break;
@@ -211,6 +240,7 @@ Errors Gathering::gather_until_right(const std::string& what, const ReadError& r
          errors.noise * errors.noise_uncertainty > accuracy * errors.whole() * errors.whole();
          more *= 4)
         judge_by(more);
+    light_.levels.push_back({read.level, level});
     add(errors);
     return errors;
 }
@@ -273,7 +303,8 @@ void Gathering::find_points(std::span<const NamedPoint> points) {
     const Stopwatch watch;
     // The noise of few points is hardly known, and so its bound is larger.
     const double in_doubt = 1 + 1 / std::sqrt(double(std::max<std::size_t>(points.size(), 1)));
-    PointLightOptions options{.noise = share_of_noise * error_ / in_doubt,
+    const double error = error_at(errors.read.level, &TargetLevel::read);
+    PointLightOptions options{.noise = share_of_noise * error / in_doubt,
                               .read_error =
                                   std::isfinite(errors.read.error) ? errors.read.error : 0,
                               .seed = seed_of(2),
@@ -293,6 +324,7 @@ void Gathering::find_points(std::span<const NamedPoint> points) {
     errors.noise = light_.points.noise;
     errors.noise_uncertainty = light_.points.noise_uncertainty;
     errors.noise_local = light_.points.noise_local;
+    light_.levels.push_back({errors.read.level, 0});
     statistics_.rays_gather += light_.points.rays;
     statistics_.seconds_learn += watch.seconds();
     add(errors);
@@ -417,10 +449,11 @@ bool gathers(const SolveSettings& settings) {
 GatheredLight gather_light(const SolveSettings& settings, const LitScene& scene,
                            const Solution& solution, std::span<const NamedPoint> points,
                            const Camera& camera, std::span<const NamedLayout> lightmaps,
-                           Monitor& monitor, Statistics& statistics) {
+                           Monitor& monitor, Statistics& statistics,
+                           const std::optional<WholeLight>& whole) {
     if (!gathers(settings))
         return {};
-    Gathering gathering(settings, scene, solution, monitor, statistics);
+    Gathering gathering(settings, scene, solution, monitor, statistics, whole);
     if (!points.empty())
         gathering.find_points(points);
     for (const NamedLayout& lightmap : lightmaps)

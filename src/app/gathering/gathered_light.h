@@ -22,14 +22,28 @@
 
 namespace hemilux {
 
+/// How bright a target is: RMS over its places and channels [W/m2].
+struct TargetLevel {
+    double read = 0;  ///< light that gathers there read
+    double shown = 0; ///< light that a picture or lightmap shows
+};
+
 struct GatheredLight {
     std::unique_ptr<LightCache> cache; ///< empty: nothing is gathered
     std::vector<Sensor> sensors;       ///< by point of --points
     LightAtPoints points;
-    std::optional<Image> picture; ///< empty: none was asked for, or a signal ended it
-    std::vector<Image> lightmaps; ///< of the layouts; empty: none was asked for
+    std::optional<Image> picture;    ///< empty: none was asked for, or a signal ended it
+    std::vector<Image> lightmaps;    ///< of the layouts; empty: none was asked for
+    std::vector<TargetLevel> levels; ///< of points, lightmaps and the picture, as far as asked for
     /// The relative error, the largest of what is given out [-]; NaN where it is not known.
     double error = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// The whole light of which only a part is gathered.
+struct WholeLight {
+    std::span<const TargetLevel> levels; ///< GatheredLight::levels
+    double error;     ///< that the part may have, relative to the whole light of a target [-]
+    double own_error; ///< that it may have at most, relative to its own light [-]
 };
 
 /// A lightmap to be gathered, of an object of this name or, without one, of all.
@@ -46,11 +60,13 @@ struct NamedLayout {
 
 /// Learns the light, and gathers that of points. `camera` is that of pictures; `lightmaps` say
 /// where surfaces lie in each. Everything that is referred to must outlive the result. Enters the
-/// error into the statistics where only gathered light is given out.
+/// error into the statistics where only gathered light is given out. With `whole` the light is a
+/// part of that, and is as exact as that needs it.
 [[nodiscard]] GatheredLight gather_light(const SolveSettings& settings, const LitScene& scene,
                                          const Solution& solution,
                                          std::span<const NamedPoint> points, const Camera& camera,
                                          std::span<const NamedLayout> lightmaps, Monitor& monitor,
-                                         Statistics& statistics);
+                                         Statistics& statistics,
+                                         const std::optional<WholeLight>& whole = {});
 
 } // namespace hemilux

@@ -11,7 +11,6 @@
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/solving/shared_stop.h"
-#include "radiosity/light/light_error/division_error.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -27,7 +26,8 @@ namespace {
 
 constexpr std::size_t max_layers = 64;
 
-/// A layer is gathered to this relative error of its own at the most, however faint it is.
+/// A layer is gathered to this relative error of its own at the most, however faint it is. All of
+/// them together are as exact as the whole was asked to be.
 constexpr double max_layer_error = .1;
 
 /// Returns the error of a layer on patches, relative to the light that it reflects; NaN where that
@@ -71,8 +71,6 @@ class Layers {
     [[nodiscard]] LampLight result() { return std::move(found_); }
 
   private:
-    [[nodiscard]] double error_of(double squares, double all_squares) const;
-
     const SolveSettings& settings_;
     const LitRun& run_;
     Monitor& monitor_;
@@ -90,7 +88,7 @@ bool Layers::find_patches(const KeepsRays& solver) {
         const std::uint64_t before = monitor_.rays;
         std::optional<Relit> light =
             rays->light_of(lit_by_layer(mesh, found_.lamps, k),
-                          mean_of_channels(layer.power) / all_power_, workers_);
+                           mean_of_channels(layer.power) / all_power_, workers_);
         if (!light)
             return false;
         statistics_.rays_layers += monitor_.rays - before;
@@ -102,15 +100,6 @@ bool Layers::find_patches(const KeepsRays& solver) {
         statistics_.layers.push_back({layer.name, layer.power, error_on_patches(mesh, found_, k)});
     }
     return true;
-}
-
-/// Returns the relative error to which a layer is gathered: all of them together are then as exact
-/// as the whole was asked to be.
-double Layers::error_of(double squares, double all_squares) const {
-    const double asked = error_of_gathered(settings_);
-    const double shared = asked / std::sqrt(double(found_.patches.size()));
-    return std::clamp(squares > 0 ? shared * std::sqrt(all_squares / squares) : 1, asked,
-                      std::max(asked, max_layer_error));
 }
 
 bool Layers::gather() {
@@ -139,15 +128,16 @@ bool Layers::gather() {
     });
     if (!gathers(settings))
         return true;
-    const double all_squares = reflected_square(scene.mesh, solution);
+    const WholeLight whole{gathered.levels,
+                           error_of_gathered(settings) / std::sqrt(double(found_.patches.size())),
+                           max_layer_error};
     for (std::uint32_t k = 0; k < found_.patches.size(); ++k) {
         const Mesh lit = lit_by_layer(scene.mesh, found_.lamps, k);
         const Solution own = solution_of(solution, found_.patches[k]);
-        settings.stop.error = error_of(reflected_square(lit, own), all_squares);
         Statistics statistics;
         GatheredLight light =
             gather_light(settings, {lit, scene.tracer, own.radiosity, scene.threads}, own, points,
-                         camera, lightmaps, monitor_, statistics);
+                         camera, lightmaps, monitor_, statistics, whole);
         if (monitor_.interrupted)
             return false;
         statistics_.rays_layers += statistics.rays_learn + statistics.rays_gather;

@@ -151,7 +151,11 @@ PictureError PictureJudge::error_of(const Image& picture, std::size_t pixels,
         return {.rays = rays};
     const double square = std::max(products / size, 0.0), sigma = std::sqrt(squares) / size;
     const double error = std::sqrt(square);
-    return {error, std::sqrt(square + sigma) - error, parts.within(), rays};
+    return {.error = error,
+            .uncertainty = std::sqrt(square + sigma) - error,
+            .local = parts.within(),
+            .level = std::sqrt(size / (3 * double(known_.size()))),
+            .rays = rays};
 }
 
 } // namespace hemilux

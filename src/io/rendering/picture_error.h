@@ -25,6 +25,7 @@ struct PictureError {
     double uncertainty = 0; ///< one sigma of `error`
     /// What 95 of 100 parts of the picture are within, relative to the light there [-].
     double local = 0;
+    double level = 0; ///< RMS of that light over pixels and channels [W/m2]
     std::uint64_t rays = 0;
 };
 

@@ -151,6 +151,18 @@ TEST_CASE("layers of light that is not gathered add up to the whole") {
         CHECK(blue_over_red(image_of(*file, "desk")) > 3 * blue_over_red(image_of(*file, "lamp")));
 }
 
+TEST_CASE("lamps of other rooms, of which a picture shows little, take few rays", "[slow]") {
+    const Workplace place;
+    const auto outcome = place.hemilux("solve " HEMILUX_SOURCE_DIR
+                                       "/examples/scenes/building_6.obj -q --layers lamp "
+                                       "-o lamps.exr --size 96x72 --stats s.json");
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const auto statistics = nlohmann::json::parse(place.read("s.json"));
+    CHECK(statistics["layers"].size() == 6);
+    CHECK(statistics["rays_layers"].get<double>() < 4 * statistics["rays_learn"].get<double>());
+}
+
 TEST_CASE("dim gives lamps other powers, as a run with these does") {
     const Workplace place;
     write_two_lamps(place);
