@@ -30,10 +30,9 @@ judge() { # viewer, file and what the line in it begins with
 }
 if command -v blender >/dev/null; then
     ran=yes
-    for what in vertices lightmap; do
-        timeout 300 blender --background --factory-startup --python "$here/blender.py" -- $what $view \
-            >log 2>&1 || true
-        judge Blender log $what || status=1
+    for what in "vertices $view" "lightmap $view" baked; do
+        timeout 300 blender --background --factory-startup --python "$here/blender.py" -- $what >log 2>&1 || true
+        judge Blender log "${what%% *}" || status=1
     done
     # And the other way: the scene that Blender begins with has its lamp the right way round.
     blender --background --factory-startup --python-expr "import numpy; numpy.bool = bool; import bpy
