@@ -102,10 +102,11 @@ std::vector<bool> lit_patches(const Mesh& mesh, std::span<const Vec3> radiosity)
     return lit;
 }
 
-/// Returns one number for surfaces that look alike: of one material and turned to one side.
-std::uint64_t kind_of(const Patch& patch) {
+/// Returns one number for surfaces that look alike: of one group and material, turned to one side.
+std::uint64_t kind_of(const Mesh& mesh, const Patch& patch) {
     const int axis = largest_axis(patch.normal), side = 2 * axis + (patch.normal[axis] > 0);
-    return std::uint64_t{patch.material} * 6 + static_cast<std::uint64_t>(side);
+    const std::uint64_t group = mesh.scene().facets[patch.facet].group;
+    return (group << 32) + std::uint64_t{patch.material} * 6 + static_cast<std::uint64_t>(side);
 }
 
 /// The quality of a view, estimated by a few rays.
@@ -141,7 +142,7 @@ Rating rate(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
         if (is_near(mesh, patch))
             result.enclosed += 1.0 / rays.size();
         if (lit[patch]) {
-            seen.push_back(kind_of(mesh.patches()[patch]));
+            seen.push_back(kind_of(mesh, mesh.patches()[patch]));
             depths.push_back(hit.t);
         }
     }
