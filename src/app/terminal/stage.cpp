@@ -24,7 +24,7 @@ std::string stage_line(const std::string& name, double share, double seconds, st
                        formatted(" %3.0f %%  ", std::floor(100 * share)) + name + "  " +
                        duration(seconds);
     // The first few per cent say little about the rest.
-    if (share > .02)
+    if (share > .02 && seconds > 0)
         line += ", " + duration(seconds * (1 - share) / share) + " left";
     return line.substr(0, width);
 }
@@ -41,12 +41,13 @@ Stage::Stage(const Monitor& monitor, Verbosity verbosity)
 
 std::string Stage::text(const Monitor& monitor, std::size_t columns) {
     const char* const phase = monitor.interrupted ? "stopping" : monitor.phase.load();
+    double seconds = watch_.seconds();
     if (name_ != phase) {
         name_ = phase;
         watch_ = {};
+        seconds = 0;
     }
-    return stage_line(name_, std::clamp(monitor.step_share.load(), 0.0, 1.0), watch_.seconds(),
-                      columns);
+    return stage_line(name_, std::clamp(monitor.step_share.load(), 0.0, 1.0), seconds, columns);
 }
 
 } // namespace hemilux

@@ -4,7 +4,6 @@
 #include "radiosity/paper/scene/mesh.h"
 
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace hemilux {
@@ -48,29 +47,27 @@ class FactorData {
     FactorData(VtkGrid& grid, std::span<const std::uint32_t> row_of, const FactorTable& table)
         : grid_(grid), row_of_(row_of), table_(table) {}
 
-    /// Returns the numbers: of_surface(row) for facets, of_point(k) for points.
+    /// Adds numbers: of_surface(row) for facets, of_point(k) for points.
     template <class OfSurface, class OfPoint>
-    [[nodiscard]] auto column(const OfSurface& of_surface, const OfPoint& of_point) const {
+    void add(const std::string& name, const OfSurface& of_surface, const OfPoint& of_point) {
         std::vector<decltype(of_surface(0))> values;
         for (const std::uint32_t row : row_of_)
             values.push_back(of_surface(row));
         for (std::size_t k = 0; k < table_.points.size(); ++k)
             values.push_back(of_point(k));
-        return values;
-    }
-    template <class OfSurface, class OfPoint>
-    void add(const std::string& name, const OfSurface& of_surface, const OfPoint& of_point) {
-        grid_.add(name, 1, column(of_surface, of_point));
+        grid_.add(name, 1, values);
     }
     /// Adds shares and, as NAME_standard_error, their errors. Points of which nothing is known
     /// have NaN.
     template <class OfSurface, class OfPoint>
     void add_shares(const std::string& name, const OfSurface& of_surface, const OfPoint& of_point) {
-        for (const auto& [end, member] : {std::pair{"", &OpenShare::factor},
-                                          std::pair{"_standard_error", &OpenShare::standard_error}})
+        const auto add_member = [&](const std::string& member_name, double OpenShare::*member) {
             add(
-                name + end, [&](std::uint32_t row) { return of_surface(row).*member; },
+                member_name, [&](std::uint32_t row) { return of_surface(row).*member; },
                 [&](std::size_t k) { return of_point(k).*member; });
+        };
+        add_member(name, &OpenShare::factor);
+        add_member(name + "_standard_error", &OpenShare::standard_error);
     }
 
   private:

@@ -58,7 +58,8 @@ class PairsMemory {
 } // namespace
 
 FactorTolerance relative_above(double error, double least) {
-    return {error * least, [error, least](std::uint32_t, std::uint32_t, double factor) {
+    return {below_least * error * least,
+            [error, least](std::uint32_t, std::uint32_t, double factor) {
                 if (factor >= least)
                     return error * factor;
                 const double ratio = least / factor;
