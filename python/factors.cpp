@@ -43,7 +43,7 @@ ViewFactorSettings settings_of(double error, const std::string& by, std::uint64_
 
 ViewFactorSettings settings_of(double error, const std::string& of, const std::string& by,
                                std::uint32_t rays, std::optional<double> seconds,
-                               std::uint64_t seed, unsigned threads) {
+                               const std::string& sky_bands, std::uint64_t seed, unsigned threads) {
     constexpr std::uint32_t least_rays = 256, most_rays = 1 << 20;
     ViewFactorSettings settings = settings_of(error, by, seed, threads);
     if (!std::has_single_bit(rays) || rays < least_rays || rays > most_rays)
@@ -55,6 +55,13 @@ ViewFactorSettings settings_of(double error, const std::string& of, const std::s
     settings.aim = *aim;
     settings.ground = true; // its error is asked for, as that of the sky
     settings.rays = rays;
+    if (!sky_bands.empty()) {
+        settings.sky_bands = parse_sky_division(sky_bands);
+        if (!settings.sky_bands)
+            throw UsageError(
+                "sky_bands: expected a whole number from 1 to 90 or 'tregenza', found " +
+                sky_bands);
+    }
     if (seconds && !(*seconds > 0))
         throw UsageError("time: expected a number of seconds above 0");
     settings.seconds = seconds;
@@ -106,6 +113,13 @@ py::array_t<double> open_of(const ViewFactors& factors, double OpenShare::*membe
     });
 }
 
+std::vector<double> members_of(std::span<const OpenShare> shares, double OpenShare::*member) {
+    std::vector<double> values;
+    for (const OpenShare& share : shares)
+        values.push_back(share.*member);
+    return values;
+}
+
 py::dict result_of(ViewFactors factors, const FactorSurfaces& surfaces, double reciprocity) {
     py::dict result;
     std::vector<double> areas;
@@ -116,6 +130,9 @@ py::dict result_of(ViewFactors factors, const FactorSurfaces& surfaces, double r
     result["open"] = open_of(factors, &OpenShare::factor);
     result["open_standard_error"] = open_of(factors, &OpenShare::standard_error);
     result["audit"] = audit_of(factors, reciprocity);
+    result["bands"] = array_of(members_of(factors.bands, &OpenShare::factor));
+    result["bands_standard_error"] =
+        array_of(members_of(factors.bands, &OpenShare::standard_error));
     result["unlisted_bound"] = array_of(std::move(factors.unlisted_bound));
     result["indptr"] = array_as<std::int64_t>(std::move(factors.row_begin));
     result["indices"] = array_as<std::int32_t>(std::move(factors.column)); // as SciPy has them
@@ -129,7 +146,9 @@ py::dict points_of(const std::vector<PointFactors>& rows) {
     std::vector<std::uint64_t> begin(1, 0);
     std::vector<std::uint32_t> column;
     std::vector<double> factor, error, bound;
+    std::vector<OpenShare> bands;
     for (const PointFactors& row : rows) {
+        bands.insert(bands.end(), row.bands.begin(), row.bands.end());
         column.insert(column.end(), row.column.begin(), row.column.end());
         factor.insert(factor.end(), row.factor.begin(), row.factor.end());
         error.insert(error.end(), row.standard_error.begin(), row.standard_error.end());
@@ -145,6 +164,8 @@ py::dict points_of(const std::vector<PointFactors>& rows) {
     py::dict result;
     result["open"] = open(&OpenShare::factor);
     result["open_standard_error"] = open(&OpenShare::standard_error);
+    result["bands"] = array_of(members_of(bands, &OpenShare::factor));
+    result["bands_standard_error"] = array_of(members_of(bands, &OpenShare::standard_error));
     result["unlisted_bound"] = array_of(std::move(bound));
     result["indptr"] = array_as<std::int64_t>(std::move(begin));
     result["indices"] = array_as<std::int32_t>(std::move(column));
@@ -154,10 +175,12 @@ py::dict points_of(const std::vector<PointFactors>& rows) {
 }
 
 py::dict compute(const PythonMesh& mesh, double error, const std::string& of, const std::string& by,
-                 std::uint32_t rays, std::optional<double> seconds, int up, std::uint64_t seed,
-                 unsigned threads, const Doubles& positions, const Doubles& normals,
-                 const py::object& progress) {
-    const ViewFactorSettings settings = settings_of(error, of, by, rays, seconds, seed, threads);
+                 std::uint32_t rays, std::optional<double> seconds, const std::string& sky_bands,
+                 int up, std::uint64_t seed, unsigned threads, const Doubles& positions,
+                 const Doubles& normals, const py::object& progress) {
+    const ViewFactorSettings settings =
+        settings_of(error, of, by, rays, seconds, sky_bands, seed, threads);
+    const std::optional<SkyBands> bands = bands_of(settings, up);
     Monitor monitor;
     FactorSurfaces surfaces;
     ViewFactors factors;
@@ -166,15 +189,20 @@ py::dict compute(const PythonMesh& mesh, double error, const std::string& of, co
     std::vector<PointFactors> points;
     run_without_lock(monitor, progress, [&] {
         surfaces = factor_surfaces(mesh.mesh(), settings.by);
-        const FactorScene scene{mesh.mesh(), mesh.tree(threads), surfaces, up};
+        const FactorScene scene{mesh.mesh(), mesh.tree(threads),       surfaces, up,
+                                {},          bands ? &*bands : nullptr};
         factors = compute_factors(settings, scene, monitor);
         points =
             compute_points(settings, scene, factor_points(places, scene.mesh, scene.tree), monitor);
         reciprocity = worst_reciprocity(factors);
     });
+    py::list band_names;
+    for (std::size_t k = 0; bands && k < bands->size(); ++k)
+        band_names.append(bands->name(k));
     py::dict result = result_of(std::move(factors), surfaces, reciprocity);
     result["least"] = settings.aim.least; // of above:F
     result["points"] = points_of(points);
+    result["band_names"] = band_names;
     return result;
 }
 
@@ -194,17 +222,16 @@ py::dict sunlit(const PythonMesh& mesh, const Doubles& directions, double error,
         surfaces = factor_surfaces(mesh.mesh(), settings.by);
         const FactorScene scene{mesh.mesh(), mesh.tree(threads), surfaces, 2};
         const std::vector<FactorPoint> points = factor_points(places, scene.mesh, scene.tree);
-        monitor.phase = "sunlight";
-        for (std::size_t s = 0; s < suns.size() && !monitor.interrupted; ++s) {
-            monitor.step_share = static_cast<double>(s) / static_cast<double>(suns.size());
-            const SunlitShares found =
-                sunlit_shares(settings, scene, -glm::normalize(suns[s]), s, points, monitor);
-            for (const std::vector<OpenShare>* const some : {&found.surfaces, &found.points})
-                for (const OpenShare& share : *some) {
-                    fractions.push_back(share.factor);
-                    errors.push_back(share.standard_error);
-                }
-        }
+        std::vector<Vec3> to_suns;
+        for (const Vec3& sun : suns)
+            to_suns.push_back(-glm::normalize(sun));
+        find_sunlit(settings, scene, to_suns, points, monitor,
+                    [&](std::size_t, const std::vector<OpenShare>& shares) {
+                        for (const OpenShare& share : shares) {
+                            fractions.push_back(share.factor);
+                            errors.push_back(share.standard_error);
+                        }
+                    });
     });
     py::dict result;
     result["name"] = names_of(surfaces);
@@ -216,7 +243,8 @@ py::dict sunlit(const PythonMesh& mesh, const Doubles& directions, double error,
 /// Makes factors of the arrays of a matrix again.
 ViewFactors factors_of(const Integers& begin, const Integers& column, const Doubles& factor,
                        const Doubles& standard_error, const Doubles& open,
-                       const Doubles& open_error) {
+                       const Doubles& open_error, const Doubles& bands,
+                       const Doubles& bands_error) {
     ViewFactors factors;
     factors.row_begin.assign(begin.data(), begin.data() + begin.size());
     factors.column.assign(column.data(), column.data() + column.size());
@@ -231,6 +259,8 @@ ViewFactors factors_of(const Integers& begin, const Integers& column, const Doub
             row.at(k) = {shares[i][axis], errors[i][axis]};
         }
     }
+    for (py::ssize_t k = 0; k < bands.size(); ++k)
+        factors.bands.push_back({bands.data()[k], bands_error.data()[k]});
     factors.area.assign(factors.open.size(), 0); // which these files do not show
     return factors;
 }
@@ -253,10 +283,16 @@ void write(const std::string& path, const FactorTable& table) {
 
 void save(const std::string& path, const Integers& begin, const Integers& column,
           const Doubles& factor, const Doubles& standard_error, const Doubles& open,
-          const Doubles& open_error, bool sky, bool ground) {
-    const ViewFactors factors = factors_of(begin, column, factor, standard_error, open, open_error);
+          const Doubles& open_error, const Doubles& bands, const Doubles& bands_error,
+          const std::string& sky_bands, bool sky, bool ground) {
+    const ViewFactors factors =
+        factors_of(begin, column, factor, standard_error, open, open_error, bands, bands_error);
+    ViewFactorSettings settings;
+    settings.sky_bands = parse_sky_division(sky_bands);
+    const std::optional<SkyBands> parts = bands_of(settings, 2); // these files show no directions
     const std::vector<FactorSurface> surfaces(factors.rows());
     FactorTable table{factors, surfaces, {}};
+    table.bands = parts ? &*parts : nullptr;
     if (sky)
         table.columns.push_back(Open::sky);
     if (ground)

@@ -12,7 +12,21 @@ from . import _hemilux
 from ._checks import labels
 
 OPEN = ("sky", "ground", "back")
+_ERROR = "_standard_error"
 _Path = Union[str, "os.PathLike[str]"]
+
+
+def shares_of_bands(found: dict[str, Any], names: list[str]) -> dict[str, np.ndarray]:
+    """Return the share of each band by its name, and its standard error with this at the end."""
+    rows = len(found["open"])
+    return {name + end: np.ascontiguousarray(found["bands" + end].reshape(rows, len(names))[:, k])
+            for k, name in enumerate(names) for end in ("", _ERROR)}
+
+
+def _bands(shares: dict[str, Any], end: str) -> dict[str, np.ndarray]:
+    """Return the bands of the sky among shares, or their errors, by the names of the bands."""
+    names = [key for key in shares if key.startswith("sky ") and not key.endswith(_ERROR)]
+    return {name: shares[name + end] for name in names}
 
 
 class PointFactors:
@@ -30,11 +44,13 @@ class PointFactors:
         Shares that leave the scene upwards and downwards, and that meet backs of one-sided faces [-].
     sky_standard_error, ground_standard_error, back_standard_error : ndarray of float64, shape (p,)
         Their standard errors [-].
+    bands, bands_standard_error : dict of str to ndarray of float64, shape (p,)
+        The parts of the sky by their names, as `ViewFactors.bands`.
     unlisted_bound : ndarray of float64, shape (p,)
         The sum of the factors of a row that are not listed is below this in 95 of 100 rows [-].
     """
 
-    def __init__(self, found: dict[str, Any], surfaces: int) -> None:
+    def __init__(self, found: dict[str, Any], surfaces: int, bands: list[str]) -> None:
         self.unlisted_bound = found["unlisted_bound"]
         self.matrix, self.standard_error = (
             scipy.sparse.csr_matrix((found[data], found["indices"], found["indptr"]),
@@ -42,6 +58,8 @@ class PointFactors:
         self.sky, self.ground, self.back = np.ascontiguousarray(found["open"].T)
         self.sky_standard_error, self.ground_standard_error, self.back_standard_error = \
             np.ascontiguousarray(found["open_standard_error"].T)
+        shares = shares_of_bands(found, bands)
+        self.bands, self.bands_standard_error = _bands(shares, ""), _bands(shares, _ERROR)
 
     def __len__(self) -> int:
         return len(self.unlisted_bound)
@@ -59,7 +77,7 @@ class ViewFactors:
     ----------
     matrix : scipy.sparse.csr_matrix of float64, shape (n, n)
         View factors [-]. With ``sky=True`` or ``ground=True`` a column of each follows, and a row
-        without entries, so that the matrix stays square.
+        without entries, so that the matrix stays square. ``sky_bands=`` has a column of each band.
     standard_error : scipy.sparse.csr_matrix of float64
         Of each factor [-], with the same entries; 0: the factor is exact.
     area : ndarray of float64, shape (n,)
@@ -73,6 +91,9 @@ class ViewFactors:
     sky_standard_error, ground_standard_error, back_standard_error : ndarray of float64, or None
         Their standard errors [-]. Where no ray went one way, half of what is possible in 95 % of all
         cases.
+    bands, bands_standard_error : dict of str to ndarray of float64, shape (n,)
+        The parts of the sky by their names, ``sky 0-30`` or ``sky 17``, and their standard errors
+        [-]. They sum to ``sky``. Empty without ``sky_bands=``.
     unlisted_bound : ndarray of float64, shape (n,), or None
         The sum of the factors of a row that are not listed is below this in 95 of 100 rows [-].
     audit : dict of str to float
@@ -93,6 +114,7 @@ class ViewFactors:
         self.sky, self.sky_standard_error = shares["sky"], shares["sky_standard_error"]
         self.ground, self.ground_standard_error = shares["ground"], shares["ground_standard_error"]
         self.back, self.back_standard_error = shares["back"], shares["back_standard_error"]
+        self.bands, self.bands_standard_error = _bands(shares, ""), _bands(shares, _ERROR)
         self.matrix = _with_columns(factors, [shares[c] for c in columns])
         self.standard_error = errors if not columns else _with_columns(
             errors, [shares[c + "_standard_error"] for c in columns], self.matrix)
@@ -189,16 +211,18 @@ class ViewFactors:
         shares, errors = (np.stack([_or_zeros(self._shares.get(key + end), n) for key in OPEN], 1)
                           for end in ("", "_standard_error"))
         factors = self._factors
+        bands, band_errors = (np.stack(list(parts.values()), 1) if parts else np.empty((n, 0))
+                              for parts in (self.bands, self.bands_standard_error))
+        division = "tregenza" if "sky 1" in self.bands else str(len(self.bands) or "")
         _hemilux.save_factors(path, factors.indptr, factors.indices, factors.data,
-                              self._errors.data, shares, errors, "sky" in self._columns,
-                              "ground" in self._columns)
+                              self._errors.data, shares, errors, bands, band_errors, division,
+                              bool(self.bands) or "sky" in self._columns, "ground" in self._columns)
 
     @staticmethod
     def load(path: _Path) -> "ViewFactors":
         """Read what `save` or ``hemilux viewfactors -o factors.npz`` wrote.
 
-        Bands of the sky are summed to ``sky``, and rows of points are left out;
-        ``scipy.sparse.load_npz`` reads these.
+        Rows of points are left out; ``scipy.sparse.load_npz`` reads these.
 
         Parameters
         ----------
@@ -213,18 +237,18 @@ class ViewFactors:
             name = [text.decode("utf-8") for text in file["name"].tolist()]
             shape = tuple(file["shape"].tolist())
             place = {key: size + k for k, key in enumerate(name[size:shape[1]])}
-            columns = tuple(key for key in place if key in OPEN)
+            columns = tuple(place)
+            bands = [key for key in place if key not in OPEN]
             matrix, errors = (scipy.sparse.csr_matrix((file[data], file["indices"], file["indptr"]),
                                                       shape) for data in ("data", "standard_error"))
             shares: dict[str, Optional[np.ndarray]] = {}
-            for key in OPEN:
+            for key in [*OPEN, *bands]:
                 for end, source in (("", matrix), ("_standard_error", errors)):
                     shares[key + end] = file[key + end] if key + end in file else None
                     if shares[key + end] is None and key in columns:
                         shares[key + end] = source[:size, place[key]].toarray().reshape(-1)
-            bands = [k for key, k in place.items() if key not in OPEN]
-            if bands:
-                shares["sky"] = np.asarray(matrix[:size, bands].sum(axis=1)).reshape(-1)
+            if bands and shares["sky"] is None:
+                shares["sky"] = np.sum([shares[key] for key in bands], axis=0)
             bound = file["unlisted_bound"] if "unlisted_bound" in file else None
             audit = {key.removeprefix("audit_"): file[key].item()
                      for key in file.files if key.startswith("audit_")}

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional
+from typing import Any, Optional, Union
 
 import numpy as np
 import scipy.sparse
 
 from . import _hemilux
 from ._checks import Progress, axis, natural, places_with_normals, threads_and_seed, warn
-from ._factors import OPEN, PointFactors, ViewFactors
+from ._factors import OPEN, PointFactors, ViewFactors, shares_of_bands
 from ._mesh import Mesh
 
 
@@ -35,7 +35,8 @@ def _error_reached(factors: ViewFactors, of: str, least: float) -> float:
 
 
 def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by: str = "face",
-                 sky: bool = False, ground: bool = False, rays: int = 1024,
+                 sky: bool = False, ground: bool = False,
+                 sky_bands: Union[int, str, None] = None, rays: int = 1024,
                  time: Optional[float] = None, up: Optional[str] = None, points: Any = None,
                  threads: int = 0, seed: int = 1, progress: Progress = None) -> ViewFactors:
     """Compute the view factors between all surfaces, as ``hemilux viewfactors``.
@@ -54,6 +55,9 @@ def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by
         What a surface is: the front or the back of a face, or all faces of a group or material.
     sky, ground : bool, optional
         Whether they are columns of the matrix too.
+    sky_bands : int or 'tregenza', optional
+        Divide the sky into bands of equal altitude, 1 to 90 of them, or into the 145 patches of
+        Tregenza. They are in ``.bands``, and columns of the matrix in place of the sky.
     rays : int, optional
         Rays of each patch that find who sees whom, a power of two from 256.
     time : float, optional
@@ -98,6 +102,7 @@ def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by
     places = places_with_normals("points", points)
     found = _hemilux.view_factors(mesh._core, float(error), of, by, natural("rays", rays, 2**20),
                                   None if time is None else float(time),
+                                  "" if sky_bands is None else str(sky_bands),
                                   mesh._core.up if up is None else axis(up), chosen_seed, number,
                                   places[:, :3], places[:, 3:], progress)
     n = len(found["area"])
@@ -107,11 +112,13 @@ def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by
     for k, name in enumerate(OPEN):
         shares[name] = np.ascontiguousarray(found["open"][:, k])
         shares[name + "_standard_error"] = np.ascontiguousarray(found["open_standard_error"][:, k])
-    columns = ("sky",) * sky + ("ground",) * ground
+    bands = found["band_names"]
+    shares.update(shares_of_bands(found, bands))
+    columns = (tuple(bands) or ("sky",) * sky) + ("ground",) * ground
     result = ViewFactors(factors, errors, found["area"], found["name"], shares,
                          found["unlisted_bound"], found["audit"], columns)
     if points is not None:
-        result.points = PointFactors(found["points"], n)
+        result.points = PointFactors(found["points"], n, bands)
     _warn_of(result, of, found["least"], error)
     return result
 

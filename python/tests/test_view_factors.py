@@ -87,6 +87,28 @@ def test_sky_and_ground_are_columns_where_that_is_asked_for():
     assert len(found) == 2 and found.by(["x", "x"]).matrix.shape == (3, 3)
 
 
+@pytest.mark.parametrize("division, first", [(3, "sky 0-30"), ("tregenza", "sky 1")])
+def test_bands_of_the_sky_sum_to_it_and_are_columns(tmp_path, division, first):
+    found = hemilux.view_factors(squares("floor", "wall"), sky_bands=division, ground=True,
+                                 points=[[.5, .5, .2, 0, 0, 1]])
+    count = len(found.bands)
+    assert count == (145 if division == "tregenza" else division)
+    assert next(iter(found.bands)) == first
+    for rows in (found, found.points, found.by(["x", "y"])):
+        assert np.sum(list(rows.bands.values()), axis=0) == pytest.approx(rows.sky, abs=1e-12)
+        assert all((error > 0).all() for error in rows.bands_standard_error.values())
+    assert found.matrix.shape == (3 + count, 3 + count)
+    assert found.matrix[:2, 2].toarray().ravel() == pytest.approx(found.bands[first])
+    found.save(tmp_path / "factors.npz")
+    again = hemilux.ViewFactors.load(tmp_path / "factors.npz")
+    assert list(again.bands) == list(found.bands)
+    assert again.bands[first].tobytes() == found.bands[first].tobytes()
+    assert (again.matrix != found.matrix).nnz == 0
+    found.save(tmp_path / "factors.npy")
+    assert np.load(tmp_path / "factors.npy") == pytest.approx(found.matrix.toarray(), abs=0)
+    assert hemilux.view_factors(squares("floor")).bands == {}
+
+
 @pytest.mark.parametrize("of, asked", [("rows", 0.01), ("largest", 0.05), ("sky", 0.05),
                                        ("pair:20,45", 0.01), ("above:1%", 0.01)])
 def test_errors_are_those_of_what_was_asked(of, asked):
@@ -156,7 +178,7 @@ def test_the_program_finds_the_same_bytes(tmp_path):
 
 
 @pytest.mark.skipif(not PROGRAM, reason="the program is not named by HEMILUX_PROGRAM")
-def test_bands_and_points_of_the_program_are_read_as_sky_and_surfaces(tmp_path):
+def test_bands_of_the_program_are_read_and_points_left_out(tmp_path):
     (tmp_path / "floor.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
     (tmp_path / "points.txt").write_text("0.5 0.5 1 0 0 -1\n0.5 0.5 1 1 0 0\n")
     subprocess.run([PROGRAM, "viewfactors", tmp_path / "floor.obj", "-q", "--sky-bands", "3",
@@ -167,7 +189,12 @@ def test_bands_and_points_of_the_program_are_read_as_sky_and_surfaces(tmp_path):
     assert np.asarray(whole.sum(axis=1)).ravel() == pytest.approx([1, 0, 0, 0, 0, 1, 1])
     found = hemilux.ViewFactors.load(tmp_path / "f.npz")
     assert found.sky.tolist() == pytest.approx([1]) and found.sky_standard_error is None
-    assert found.matrix.shape == (2, 2) and found.ground.tolist() == [0]
+    assert found.matrix.shape == (5, 5) and found.ground.tolist() == [0]
+    own = hemilux.view_factors(hemilux.read(tmp_path / "floor.obj"), sky_bands=3, ground=True)
+    assert list(found.bands) == list(own.bands) == ["sky 0-30", "sky 30-60", "sky 60-90"]
+    for key, band in own.bands.items():
+        assert found.bands[key].tobytes() == band.tobytes()
+        assert found.bands_standard_error[key].tobytes() == own.bands_standard_error[key].tobytes()
 
 
 def test_an_error_that_is_not_reached_is_reported():
@@ -198,6 +225,8 @@ def test_turned_faces_are_named():
     (dict(time=0), "time: expected a number of seconds above 0"),
     (dict(points=[[0, 0, 0]]), "points: expected rows of six numbers"),
     (dict(points=[[0, 0, 0, 0, 0, 0]]), "points: expected a normal"),
+    (dict(sky_bands=91), "sky_bands: expected a whole number from 1 to 90"),
+    (dict(sky_bands="reinhart"), "sky_bands: expected a whole number from 1 to 90"),
     (dict(up="w"), "up: expected 'x', 'y' or 'z'"),
 ])
 def test_what_is_wrong_is_named(arguments, message):

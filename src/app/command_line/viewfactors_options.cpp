@@ -35,16 +35,6 @@ std::optional<Vec3> direction_from(const std::string& text) {
     return direction == Vec3(0.0) ? std::nullopt : std::optional(direction_of(direction));
 }
 
-std::optional<SkyDivision> bands_from(const std::string& text) {
-    constexpr std::uint64_t most = 90;
-    if (text == "tregenza")
-        return SkyDivision{};
-    const std::optional<std::uint64_t> steps = parse_whole(text);
-    return steps && *steps >= 1 && *steps <= most
-               ? std::optional(SkyDivision{static_cast<unsigned>(*steps)})
-               : std::nullopt;
-}
-
 std::optional<std::string> output_from(const std::string& path) {
     return factor_file_of(path) ? std::optional(path) : std::nullopt;
 }
@@ -85,7 +75,8 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
         method, "--sky-bands", "N|tregenza",
         "divide the column of the sky into N bands of equal altitude, or into the 145 patches "
         "of Tregenza",
-        "a whole number from 1 to 90 or tregenza", bands_from,
+        "a whole number from 1 to 90 or tregenza",
+        [](const std::string& text) { return parse_sky_division(text); },
         [&settings](const SkyDivision& division) {
             settings.sky_bands = division;
             settings.sky = true;

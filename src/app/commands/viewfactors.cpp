@@ -39,13 +39,6 @@ struct LoadedSurfaces {
     MemoryNeed need; ///< but for the pairs, whose number the rays find
 };
 
-std::optional<SkyBands> bands_of(const ViewFactorSettings& settings, int up) {
-    if (!settings.sky_bands)
-        return {};
-    return settings.sky_bands->steps > 0 ? SkyBands::of_equal_steps(settings.sky_bands->steps, up)
-                                         : SkyBands::tregenza(up);
-}
-
 /// Returns the need but for the pairs: planes and names of surfaces, and what threads look at.
 MemoryNeed need_of(const Scene& scene, const ViewFactorSettings& settings) {
     constexpr double per_patch = 1500, of_thread = 16e6, per_band = 2 * sizeof(OpenShare);
@@ -114,7 +107,8 @@ void check_sky(const ViewFactorSettings& settings) {
 }
 
 void write(const std::string& path, const ViewFactorSettings& settings, const Mesh& mesh,
-           const FactorSurfaces& surfaces, const FactorTable& table) {
+           const FactorSurfaces& surfaces, const FactorTable& table,
+           std::span<const std::vector<OpenShare>> sunlit) {
     switch (factor_file_of(path).value()) {
     case FactorFile::pairs:
         return write_factor_pairs(path, table);
@@ -123,7 +117,7 @@ void write(const std::string& path, const ViewFactorSettings& settings, const Me
     case FactorFile::dense:
         return write_dense_factors(path, table);
     case FactorFile::cells:
-        return write_factor_vtu(path, mesh, surfaces.row_of, table);
+        return write_factor_vtu(path, mesh, surfaces.row_of, table, sunlit);
     case FactorFile::udales_factors:
         return write_udales_factors(path, table);
     case FactorFile::udales_sky:
@@ -148,7 +142,7 @@ bool wants_factors(const ViewFactorSettings& settings) {
 /// Computes what is to be written, and logs how exact it is.
 FoundFactors compute(const ViewFactorSettings& settings, const FactorScene& scene,
                      std::span<const NamedPoint> points, Monitor& monitor) {
-    const Stage stage("finding factors", settings.verbosity);
+    const Stage stage(monitor, settings.verbosity);
     const Stopwatch watch;
     FoundFactors results;
     results.places = places_of(points);
@@ -221,28 +215,42 @@ RunFiles files_of(const ViewFactorSettings& settings) {
     return check_files(outputs, settings.scene.path);
 }
 
-/// Writes all files, and finds the sunlit fractions as they are written.
+/// Writes all files, and finds the sunlit fractions as they are written. Files that have these,
+/// too, come last.
 WriteReport write_found(const ViewFactorSettings& settings, const FactorScene& scene,
                         const FoundFactors& results, std::span<const Vec3> suns, Monitor& monitor) {
-    const FactorTable table = table_of(settings, scene, results, monitor);
     WriteReport report;
-    if (results.has_factors) {
+    SunlitRun sunlit;
+    const auto has_sunlit = [&](const std::string& path) {
+        return !suns.empty() && factor_file_of(path) == FactorFile::cells;
+    };
+    const auto write_outputs = [&](bool with_sunlit) {
+        if (!results.has_factors)
+            return;
         const Stage stage("writing", settings.verbosity);
+        const FactorTable table = table_of(settings, scene, results, monitor);
         for (const std::string& path : settings.outputs)
-            report.attempt(path, [&] { write(path, settings, scene.mesh, scene.surfaces, table); });
-        if (!settings.legend.empty())
+            if (has_sunlit(path) == with_sunlit)
+                report.attempt(path, [&] {
+                    write(path, settings, scene.mesh, scene.surfaces, table, sunlit.kept);
+                });
+        if (!settings.legend.empty() && !with_sunlit)
             report.attempt(settings.legend, [&] { write_factor_legend(settings.legend, table); });
-    }
-    if (!settings.sunlit.empty())
-        report.attempt(settings.sunlit, [&] {
-            if (monitor.interrupted)
-                throw Interrupted();
-            const Stage stage("finding sunlight", settings.verbosity);
-            const Stopwatch watch;
-            const SunlitRun run = write_sunlit(settings.sunlit, settings, scene, suns,
-                                               results.points, table.size(), monitor);
-            log_sunlit(settings, run, suns.size(), watch.seconds());
-        });
+    };
+    write_outputs(false);
+    if (suns.empty())
+        return report;
+    report.attempt(settings.sunlit, [&] {
+        if (monitor.interrupted)
+            throw Interrupted();
+        const Stage stage(monitor, settings.verbosity);
+        const Stopwatch watch;
+        sunlit = write_sunlit(settings.sunlit, settings, scene, suns, results.points,
+                              table_of(settings, scene, results, monitor).size(),
+                              std::ranges::any_of(settings.outputs, has_sunlit), monitor);
+        log_sunlit(settings, sunlit, suns.size(), watch.seconds());
+    });
+    write_outputs(true);
     return report;
 }
 

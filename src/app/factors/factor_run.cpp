@@ -56,6 +56,13 @@ std::vector<double> passes_before(const ViewFactorSettings& settings) {
 
 } // namespace
 
+std::optional<SkyBands> bands_of(const ViewFactorSettings& settings, int up) {
+    if (!settings.sky_bands)
+        return {};
+    return settings.sky_bands->steps > 0 ? SkyBands::of_equal_steps(settings.sky_bands->steps, up)
+                                         : SkyBands::tregenza(up);
+}
+
 ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScene& scene,
                             Monitor& monitor) {
     const Workers workers(settings.options.threads);

@@ -4,9 +4,11 @@
 #include "app/factors/factor_surfaces.h"
 #include "bvh/wide/wide_bvh.h"
 #include "radiosity/engine/point_views/point_factors.h"
+#include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/engine/view_factors/view_factors.h"
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +23,9 @@ struct FactorScene {
     std::function<void(double bytes)> ask = {}; ///< ExchangeOptions::ask
     const SkyBands* bands = nullptr;            ///< parts of the sky, if they are asked for
 };
+
+/// Returns the parts of the sky that the settings ask for, if any.
+[[nodiscard]] std::optional<SkyBands> bands_of(const ViewFactorSettings& settings, int up);
 
 /// Computes the factors by `error`, `aim`, `rays`, seed, threads and time of the settings. With
 /// `largest` it does so again where the largest factor of a row is smaller than was thought. After

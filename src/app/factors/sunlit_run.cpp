@@ -33,12 +33,13 @@ std::vector<OpenShare> means_of(const FactorScene& scene, std::span<const OpenSh
     return means;
 }
 
-/// Writes a row for each fraction; surfaces have consecutive numbers, from `first` on.
-void write_rows(AtomicFile& file, std::size_t sun, std::size_t first,
+/// Writes a row for each fraction. Surfaces count from 0, points from `first_point`.
+void write_rows(AtomicFile& file, std::size_t sun, std::size_t surfaces, std::size_t first_point,
                 std::span<const OpenShare> fractions) {
     std::string line;
     for (std::size_t k = 0; k < fractions.size(); ++k) {
-        line = std::to_string(sun) + "," + std::to_string(first + k) + ",";
+        const std::size_t row = k < surfaces ? k : first_point + (k - surfaces);
+        line = std::to_string(sun) + "," + std::to_string(row) + ",";
         csv::append_number(line, fractions[k].factor);
         line += ',';
         csv::append_number(line, fractions[k].standard_error);
@@ -48,44 +49,46 @@ void write_rows(AtomicFile& file, std::size_t sun, std::size_t first,
 
 } // namespace
 
-SunlitShares sunlit_shares(const ViewFactorSettings& settings, const FactorScene& scene,
-                           const Vec3& sun, std::size_t number, std::span<const FactorPoint> points,
-                           Monitor& monitor) {
-    const SunlitOptions options{.error = settings.error,
-                                .seed = hash_words({settings.options.seed, number})};
-    const std::vector<OpenShare> of_patches = sunlit_patches(
-        sun, scene.mesh, scene.tree, options, Workers(settings.options.threads), monitor);
-    SunlitShares shares;
-    if (monitor.interrupted)
-        return shares;
-    shares.surfaces = means_of(scene, of_patches);
-    for (const FactorPoint& point : points)
-        shares.points.push_back({is_sunlit(point, sun, scene.tree) ? 1.0 : 0.0, 0});
-    return shares;
+void find_sunlit(const ViewFactorSettings& settings, const FactorScene& scene,
+                 std::span<const Vec3> suns, std::span<const FactorPoint> points, Monitor& monitor,
+                 const std::function<void(std::size_t sun, std::vector<OpenShare> shares)>& keep) {
+    const Workers workers(settings.options.threads);
+    monitor.phase = "sunlight";
+    for (std::size_t s = 0; s < suns.size(); ++s) {
+        monitor.step_share = static_cast<double>(s) / static_cast<double>(suns.size());
+        const SunlitOptions options{.error = settings.error,
+                                    .seed = hash_words({settings.options.seed, s})};
+        const std::vector<OpenShare> of_patches =
+            sunlit_patches(suns[s], scene.mesh, scene.tree, options, workers, monitor);
+        if (monitor.interrupted)
+            return;
+        std::vector<OpenShare> shares = means_of(scene, of_patches);
+        for (const FactorPoint& point : points)
+            shares.push_back({is_sunlit(point, suns[s], scene.tree) ? 1.0 : 0.0, 0});
+        keep(s, std::move(shares));
+    }
 }
 
 SunlitRun write_sunlit(const std::string& path, const ViewFactorSettings& settings,
                        const FactorScene& scene, std::span<const Vec3> suns,
-                       std::span<const FactorPoint> points, std::size_t first_point,
+                       std::span<const FactorPoint> points, std::size_t first_point, bool keeps,
                        Monitor& monitor) {
     AtomicFile file(path);
     file.write("sun,surface,sunlit,standard_error\n");
     SunlitRun run;
-    monitor.phase = "sunlight";
-    for (std::size_t s = 0; s < suns.size(); ++s) {
-        monitor.step_share = static_cast<double>(s) / static_cast<double>(suns.size());
-        const auto [means, of_points] = sunlit_shares(settings, scene, suns[s], s, points, monitor);
-        if (monitor.interrupted)
-            break;
-        write_rows(file, s, 0, means);
-        write_rows(file, s, first_point, of_points);
-        ++run.suns;
-        for (const OpenShare& mean : means) {
-            ++run.all;
-            run.exact += mean.standard_error == 0 ? 1 : 0;
-            run.worst_error = std::max(run.worst_error, mean.standard_error);
-        }
-    }
+    find_sunlit(settings, scene, suns, points, monitor,
+                [&](std::size_t sun, std::vector<OpenShare> shares) {
+                    const std::size_t surfaces = scene.surfaces.rows.size();
+                    write_rows(file, sun, surfaces, first_point, shares);
+                    ++run.suns;
+                    for (const OpenShare& share : std::span(shares).first(surfaces)) {
+                        ++run.all;
+                        run.exact += share.standard_error == 0 ? 1 : 0;
+                        run.worst_error = std::max(run.worst_error, share.standard_error);
+                    }
+                    if (keeps)
+                        run.kept.push_back(std::move(shares));
+                });
     file.commit();
     return run;
 }

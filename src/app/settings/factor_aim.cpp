@@ -1,6 +1,7 @@
 #include "app/settings/factor_aim.h"
 
 #include "app/settings/extension.h"
+#include "app/settings/numbers.h"
 
 #include <filesystem>
 
@@ -35,6 +36,16 @@ std::optional<FactorAim> parse_factor_aim(std::string_view text) {
     aim.from = text.substr(0, comma);
     aim.to = text.substr(comma + 1);
     return aim;
+}
+
+std::optional<SkyDivision> parse_sky_division(std::string_view text) {
+    constexpr std::uint64_t most = 90;
+    if (text == "tregenza")
+        return SkyDivision{};
+    const std::optional<std::uint64_t> steps = parse_whole(text);
+    return steps && *steps >= 1 && *steps <= most
+               ? std::optional(SkyDivision{static_cast<unsigned>(*steps)})
+               : std::nullopt;
 }
 
 std::optional<FactorFile> factor_file_of(const std::string& path) {

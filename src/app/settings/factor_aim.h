@@ -1,5 +1,6 @@
 #pragma once
-// What the command line says about view factors: whose error is asked for, and kinds of files.
+// What the command line says about view factors: whose error is asked for, how the sky is
+// divided, and kinds of files.
 
 #include "app/settings/view_factor_settings.h"
 
@@ -11,6 +12,9 @@ namespace hemilux {
 
 /// Reads "above:F", "rows", "largest", "pair:A,B" or "sky"; empty for any other text.
 [[nodiscard]] std::optional<FactorAim> parse_factor_aim(std::string_view text);
+
+/// Reads a number of bands from 1 to 90, or "tregenza"; empty for any other text.
+[[nodiscard]] std::optional<SkyDivision> parse_sky_division(std::string_view text);
 
 enum class FactorFile { pairs, sparse, dense, cells, udales_factors, udales_sky };
 

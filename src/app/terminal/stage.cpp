@@ -2,6 +2,7 @@
 
 #include "app/settings/text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,9 +17,37 @@ std::string stage_line(const std::string& name, double seconds, std::size_t widt
     return ("[" + bar + "] " + name + "  " + duration(seconds)).substr(0, width);
 }
 
+std::string stage_line(const std::string& name, double share, double seconds, std::size_t width) {
+    constexpr std::size_t cells = 24;
+    const auto full = static_cast<std::size_t>(cells * share);
+    std::string line = "[" + std::string(full, '#') + std::string(cells - full, '.') + "]" +
+                       formatted(" %3.0f %%  ", std::floor(100 * share)) + name + "  " +
+                       duration(seconds);
+    // The first few per cent say little about the rest.
+    if (share > .02 && seconds > 0)
+        line += ", " + duration(seconds * (1 - share) / share) + " left";
+    return line.substr(0, width);
+}
+
 Stage::Stage(std::string name, Verbosity verbosity)
     : name_(std::move(name)),
       line_(verbosity != Verbosity::quiet && stderr_is_terminal(),
             [this](std::size_t columns) { return stage_line(name_, watch_.seconds(), columns); }) {}
+
+Stage::Stage(const Monitor& monitor, Verbosity verbosity)
+    : name_(monitor.phase.load()),
+      line_(verbosity != Verbosity::quiet && stderr_is_terminal(),
+            [this, &monitor](std::size_t columns) { return text(monitor, columns); }) {}
+
+std::string Stage::text(const Monitor& monitor, std::size_t columns) {
+    const char* const phase = monitor.interrupted ? "stopping" : monitor.phase.load();
+    double seconds = watch_.seconds();
+    if (name_ != phase) {
+        name_ = phase;
+        watch_ = {};
+        seconds = 0;
+    }
+    return stage_line(name_, std::clamp(monitor.step_share.load(), 0.0, 1.0), seconds, columns);
+}
 
 } // namespace hemilux

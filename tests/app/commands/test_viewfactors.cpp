@@ -2,6 +2,7 @@
 #include "app/check_fails.h"
 #include "app/running.h"
 #include "support/catch.h"
+#include "support/vtk_arrays.h"
 
 #include <algorithm>
 #include <array>
@@ -195,6 +196,44 @@ TEST_CASE("viewfactors gives the same bytes whatever the threads") {
                            ".npz")
                   .code == 0);
     CHECK(place.read("1.npz") == place.read("3.npz"));
+}
+
+TEST_CASE("viewfactors writes bands, sunlight and points as cells of VTK") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    place.write("points.txt", ".2,.5,0,0,0,1\n.9,.5,0,0,0,1\n");
+    place.write("suns.txt", "-1,0,-2\n0,0,-1\n");
+    REQUIRE(place
+                .hemilux("viewfactors box.obj -q --by group --sky-bands 3 --suns suns.txt "
+                         "--sunlit s.csv --points points.txt -o f.vtu --legend l.csv")
+                .code == 0);
+    const auto arrays = hemilux::test::arrays_of(place.read("f.vtu"));
+    const auto legend = rows_of(place.read("l.csv")), sunlit = rows_of(place.read("s.csv"));
+    const std::vector<double>& surface = arrays.at("surface");
+    const std::size_t cells = surface.size(), points = 2;
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+        CHECK((arrays.at("types")[cell] == 1) == (cell + points >= cells));
+        const auto& row = legend.at(static_cast<std::size_t>(surface[cell]) + 1);
+        double sum = 0;
+        for (const char* const band : {"sky 0-30", "sky 30-60", "sky 60-90"}) {
+            sum += arrays.at(band)[cell];
+            const auto column = std::ranges::find(legend[0], band) - legend[0].begin();
+            const auto at = static_cast<std::size_t>(column);
+            CHECK(arrays.at(band)[cell] == std::stod(row[at]));
+            CHECK(arrays.at(std::string(band) + "_standard_error")[cell] == std::stod(row[at + 1]));
+        }
+        CHECK(sum == Approx(arrays.at("sky")[cell]));
+        CHECK(arrays.at("row_sum")[cell] == Approx(1));
+        for (std::size_t k = 1; k < sunlit.size(); ++k)
+            if (std::stod(sunlit[k][1]) == surface[cell])
+                CHECK(arrays.at("sunlit_" + sunlit[k][0])[cell] == std::stod(sunlit[k][2]));
+    }
+    // Corners of the points are the last.
+    const std::vector<double>& corners = arrays.at("points");
+    CHECK(corners.at(corners.size() - 6) == .2);
+    REQUIRE(place.hemilux("viewfactors box.obj -q --of sky --sun 0,0,-1 --sunlit s.csv -o g.vtu")
+                .code == 0);
+    CHECK(hemilux::test::arrays_of(place.read("g.vtu")).at("sunlit").size() == cells - points);
 }
 
 TEST_CASE("viewfactors names surfaces that see nothing but backs") {

@@ -22,6 +22,15 @@ TEST_CASE("a stage shows its name and how long it lasts, and fits the terminal")
     CHECK(stage_line("reading", 1, 10).size() == 10);
 }
 
+TEST_CASE("a stage whose end is known shows how much is done, and the time that is left") {
+    CHECK(stage_line("measuring pairs", 0, 2, 200) ==
+          "[........................]   0 %  measuring pairs  2.00 s");
+    CHECK(stage_line("measuring pairs", .25, 2, 200) ==
+          "[######..................]  25 %  measuring pairs  2.00 s, 6.00 s left");
+    CHECK(stage_line("measuring pairs", 1, 2, 200).starts_with("[########################] 100 %"));
+    CHECK(stage_line("measuring pairs", .5, 1, 10).size() == 10);
+}
+
 TEST_CASE("the whole time is told with the stages that matter") {
     Statistics statistics;
     statistics.seconds_total = 10;

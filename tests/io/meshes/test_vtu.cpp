@@ -8,6 +8,7 @@
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
+#include "support/vtk_arrays.h"
 
 #include <cstring>
 #include <map>
@@ -17,52 +18,6 @@ using namespace hemilux;
 using namespace hemilux::test;
 
 namespace {
-
-/// A quoted attribute of an element; empty where it has none.
-std::string attribute(const std::string& element, const std::string& name) {
-    const std::size_t at = element.find(" " + name + "=\"");
-    if (at == element.npos)
-        return {};
-    const std::size_t begin = at + name.size() + 3;
-    return element.substr(begin, element.find('"', begin) - begin);
-}
-
-template <class Number>
-std::vector<double> numbers_at(const std::string& bytes) {
-    std::uint64_t length = 0;
-    REQUIRE(bytes.size() >= sizeof length);
-    std::memcpy(&length, bytes.data(), sizeof length);
-    REQUIRE(sizeof length + length <= bytes.size());
-    std::vector<Number> numbers(length / sizeof(Number));
-    std::memcpy(numbers.data(), bytes.data() + sizeof length, length);
-    return {numbers.begin(), numbers.end()};
-}
-
-/// All arrays by name, those of texts as their letters' numbers.
-std::map<std::string, std::vector<double>> arrays_of(const std::string& path) {
-    const std::string file = content_of(path), mark = "<AppendedData encoding=\"raw\">\n_";
-    const std::size_t begin = file.find(mark) + mark.size();
-    REQUIRE(file.ends_with("\n</AppendedData>\n</VTKFile>\n"));
-    std::map<std::string, std::vector<double>> arrays;
-    for (std::size_t at = file.find("<DataArray"); at < begin;
-         at = file.find("<DataArray", at + 1)) {
-        const std::string element = file.substr(at, file.find('>', at) - at);
-        std::vector<double>& array = arrays[attribute(element, "Name")];
-        const std::string type = attribute(element, "type");
-        if (type == "String") {
-            std::istringstream letters(file.substr(at + element.size() + 1));
-            for (double letter = 0; letters >> letter;)
-                array.push_back(letter);
-            continue;
-        }
-        const std::string bytes = file.substr(begin + std::stoul(attribute(element, "offset")));
-        array = type == "Float64"  ? numbers_at<double>(bytes)
-                : type == "UInt8"  ? numbers_at<std::uint8_t>(bytes)
-                : type == "UInt32" ? numbers_at<std::uint32_t>(bytes)
-                                   : numbers_at<std::uint64_t>(bytes);
-    }
-    return arrays;
-}
 
 std::vector<double> letters(const std::string& text) {
     std::vector<double> numbers(text.begin(), text.end());
@@ -92,7 +47,7 @@ TEST_CASE("a .vtu file has the columns of the patch table") {
     const CornerClasses classes = find_corner_classes(mesh);
     write_vtu(folder.path("a.vtu"), mesh, classes, solution,
               {"hemilux 7", "hemilux solve -- a", 3});
-    auto arrays = arrays_of(folder.path("a.vtu"));
+    auto arrays = arrays_of(content_of(folder.path("a.vtu")));
     CHECK(arrays["material_names"] == [] {
         std::vector<double> names = letters("white <&\""), lamp = letters("lamp");
         names.insert(names.end(), lamp.begin(), lamp.end());

@@ -12,7 +12,7 @@ namespace hemilux {
 namespace {
 
 /// The most lines between two patches.
-constexpr std::uint32_t max_lines = 2048;
+constexpr std::uint32_t max_lines = 4096;
 
 } // namespace
 

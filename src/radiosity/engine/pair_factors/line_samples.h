@@ -5,8 +5,8 @@
 // between: each facet hides an interval of it. The kernel along the line has a closed form, so that
 // a line is one sample of three dimensions where a ray is one of four, and it changes steadily
 // where rays say yes or no. Points and lines are those of one scrambled Sobol sequence, whose error
-// falls nearly as their number. Equal blocks of it are nets of their own; what these differ by says
-// how large the error of their mean is.
+// falls nearly as their number. Blocks of it are nets of their own. How neighbouring blocks differ,
+// and how that changes as they are joined to larger ones, says how large the error of all is.
 
 #include "geometry/polygon_sampler.h"
 #include "radiosity/engine/pair_factors/free_exchange.h"
@@ -45,13 +45,16 @@ class LineSamples {
     [[nodiscard]] SeenShare seen() const;
 
   private:
-    static constexpr std::size_t blocks = 8;
+    static constexpr std::size_t max_blocks = 64;
 
     struct Line;
     [[nodiscard]] bool hidden_by(const Polygon& facet, const Line& line, Vec2& interval) const;
     [[nodiscard]] double seen_of(const Line& line, double whole);
     /// Returns the seen and the whole kernel along a line.
     [[nodiscard]] Vec2 sample(const Vec3& x, double s);
+    /// Returns the variance of the share by what blocks differ by, `prior` being what is known of
+    /// it from elsewhere.
+    [[nodiscard]] double variance_of_blocks(const Vec2& sum, double prior) const;
 
     const FacePlane &points_, &lines_;
     std::span<Polygon> between_;
@@ -59,7 +62,8 @@ class LineSamples {
     Polygon shape_; ///< that lines lie across
     SobolBlocks<4> places_;
     std::uint32_t count_ = 0, clear_ = 0;
-    std::array<Vec2, blocks> sums_{}; ///< seen and whole kernel of consecutive lines
+    std::uint32_t of_block_ = 1;          ///< lines
+    std::array<Vec2, max_blocks> sums_{}; ///< seen and whole kernel of consecutive lines
     double whole_squares_ = 0;
     std::vector<Vec2> hidden_; ///< intervals of a line
 };

@@ -2,6 +2,7 @@
 
 #include "radiosity/engine/view_factors/row_pairs.h"
 #include "radiosity/engine/view_factors/row_rays.h"
+#include "radiosity/engine/view_factors/rows_done.h"
 #include "radiosity/engine/view_factors/seen_pairs.h"
 #include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -54,28 +55,11 @@ class PairsMemory {
     std::atomic<std::uint64_t> bytes_{0};
 };
 
-/// Counts rows that are done, for whoever watches.
-class RowsDone {
-  public:
-    RowsDone(Monitor& monitor, const char* phase, std::size_t rows)
-        : monitor_(monitor), rows_(static_cast<double>(rows)) {
-        monitor.step_share = 0;
-        monitor.phase = phase;
-    }
-    void add(std::size_t count) {
-        monitor_.step_share = static_cast<double>(done_ += count) / rows_;
-    }
-
-  private:
-    Monitor& monitor_;
-    double rows_;
-    std::atomic<std::size_t> done_{0};
-};
-
 } // namespace
 
 FactorTolerance relative_above(double error, double least) {
-    return {error * least, [error, least](std::uint32_t, std::uint32_t, double factor) {
+    return {below_least * error * least,
+            [error, least](std::uint32_t, std::uint32_t, double factor) {
                 if (factor >= least)
                     return error * factor;
                 const double ratio = least / factor;
@@ -100,23 +84,16 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
     list.pairs.resize(patches);
     PairsMemory memory(options.ask);
     std::vector<std::vector<SeenPatch>> seen_patches(patches);
-    RowsDone looked(monitor, "finding pairs", patches);
-    workers.for_chunks_with(
-        patches, 16, [&] { return RowRays(mesh, tree, options.seed, options.up, options.bands); },
-        [&](RowRays& rays, std::size_t begin, std::size_t end) {
-            RowView view;
-            for (std::size_t i = begin; i < end && !monitor.interrupted.is_wished(); ++i) {
-                rays.trace(static_cast<std::uint32_t>(i), options.rays, view);
-                seen_patches[i].assign(view.seen.begin(), view.seen.end());
-                memory.add_seen(view.seen.size());
-                list.open[i] = view.open;
-                std::ranges::copy(view.bands,
-                                  list.bands.begin() + static_cast<std::ptrdiff_t>(i * bands));
-            }
-            monitor.rays += (end - begin) * options.rays;
-            looked.add(end - begin);
+    const RowScene scene{mesh, tree, options.seed, options.up, options.bands};
+    found.is_void = !trace_all_rows(
+        scene, options.rays, "finding pairs", workers, monitor,
+        [&](std::uint32_t i, const RowView& view) {
+            seen_patches[i].assign(view.seen.begin(), view.seen.end());
+            memory.add_seen(view.seen.size());
+            list.open[i] = view.open;
+            std::ranges::copy(view.bands,
+                              list.bands.begin() + static_cast<std::ptrdiff_t>(i * bands));
         });
-    found.is_void = monitor.interrupted.is_wished();
     if (found.is_void)
         return found;
     const std::vector<std::vector<SeenPair>> seen = pairs_of(std::move(seen_patches));

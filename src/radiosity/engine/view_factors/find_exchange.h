@@ -22,7 +22,7 @@ struct Monitor;
 
 /// This says which standard error a factor may have.
 struct FactorTolerance {
-    double least; ///< that any may have [-]
+    double least; ///< that any pair may have which exchanges nothing [-]
     /// `larger` is the larger of the two factors of a pair [-], `smaller_index` and `larger_index`
     /// are its patches.
     std::function<double(std::uint32_t smaller_index, std::uint32_t larger_index, double larger)>

@@ -3,6 +3,7 @@
 #include "geometry/elementary.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/view_factors/row_rays.h"
+#include "radiosity/engine/view_factors/rows_done.h"
 #include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/solving/solver.h"
@@ -158,17 +159,12 @@ OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, const OpenView
     const auto keep_bands = [&](std::size_t i, const std::vector<OpenShare>& bands) {
         std::ranges::copy(bands, views.bands.begin() + static_cast<std::ptrdiff_t>(i * of_row));
     };
-    workers.for_chunks_with(
-        patches, 16, [&] { return RowRays(mesh, tracer, options.seed, options.up, options.bands); },
-        [&](RowRays& row, std::size_t begin, std::size_t end) {
-            RowView view;
-            for (std::size_t i = begin; i < end && !monitor.interrupted.is_wished(); ++i) {
-                row.trace(static_cast<std::uint32_t>(i), first_rays, view);
-                views.open[i] = view.open;
-                keep_bands(i, view.bands);
-            }
-        });
-    views.is_void = monitor.interrupted.is_wished();
+    const RowScene scene{mesh, tracer, options.seed, options.up, options.bands};
+    views.is_void = !trace_all_rows(scene, first_rays, "looking around", workers, monitor,
+                                    [&](std::uint32_t i, const RowView& view) {
+                                        views.open[i] = view.open;
+                                        keep_bands(i, view.bands);
+                                    });
     std::atomic<std::uint64_t> traced{patches * first_rays}, left{0};
     const auto find = [&](SideRays& rays, std::uint32_t i, Open open) {
         OpenShare& share = views.open[i][static_cast<std::size_t>(open)];
@@ -194,9 +190,12 @@ OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, const OpenView
             while (count < most_to_side && 1.4 * count < wanted);
         }
         traced += rays.rays();
+        monitor.rays += rays.rays();
         if (open == Open::sky)
             keep_bands(i, rays.bands());
     };
+    RowsDone done(monitor, options.ground ? "measuring sky and ground" : "measuring the sky",
+                  patches);
     workers.for_chunks_with(
         patches, 16, [&] { return SideRays(mesh, tracer, options); },
         [&](SideRays& rays, std::size_t begin, std::size_t end) {
@@ -209,10 +208,10 @@ OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, const OpenView
                 if (options.ground)
                     find(rays, static_cast<std::uint32_t>(i), Open::ground);
             }
+            done.add(end - begin);
         });
     views.rays = traced;
     views.rows_left = left;
-    monitor.rays += views.rays;
     return views;
 }
 

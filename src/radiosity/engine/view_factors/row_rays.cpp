@@ -1,7 +1,7 @@
 #include "radiosity/engine/view_factors/row_rays.h"
 
-#include "radiosity/engine/pair_factors/convex_part.h"
 #include "radiosity/engine/sampling/sobol.h"
+#include "radiosity/engine/view_factors/rows_done.h"
 #include "radiosity/engine/view_factors/sky_bands.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/rays/shot.h"
@@ -10,50 +10,10 @@
 #include <cmath>
 
 namespace hemilux {
-namespace {
-
-/// A height over a plane that counts as in it, in the unit of a scene in [-1,1]^3.
-constexpr double height_of_backs = 1e-9;
-
-/// Returns whether the back of a facet faces a patch, seen or hidden.
-bool shows_its_back(const Polygon& shape, const Patch& to) {
-    if (std::ranges::none_of(shape.corner, [&to](const Vec3& corner) {
-            return glm::dot(to.normal, corner - to.shape.corner[0]) > height_of_backs;
-        }))
-        return false;
-    const Vec3 front = shape.area_vector();
-    const double level = -height_of_backs * glm::length(front);
-    return std::ranges::any_of(to.shape.corner, [&](const Vec3& corner) {
-        return glm::dot(front, corner - shape.corner[0]) < level;
-    });
-}
-
-} // namespace
 
 RowRays::RowRays(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed, int up,
                  const SkyBands* bands)
-    : mesh_(mesh), tracer_(tracer), seed_(seed), up_(up), bands_(bands) {
-    for (const Patch& patch : mesh.patches())
-        room_.include(box_of(patch.shape.corner));
-}
-
-/// Returns whether the back of a one-sided facet faces a patch. Most patches are faced by the one
-/// that faced the last, and nothing rises above the highest roofs, so few look at all facets.
-bool RowRays::may_see_backs(const Patch& patch) {
-    const Vec3 half = .5 * room_.extent();
-    const Plane plane{patch.shape.corner[0], patch.normal};
-    if (plane.height(room_.centre()) + glm::dot(half, glm::abs(patch.normal)) <= height_of_backs)
-        return false;
-    const auto facets = static_cast<std::uint32_t>(mesh_.scene().facets.size());
-    for (std::uint32_t k = 0; k < facets; ++k) {
-        const std::uint32_t facet = (last_back_ + k) % facets;
-        if (!mesh_.has_back(facet) && shows_its_back(mesh_.shape_of(facet), patch)) {
-            last_back_ = facet;
-            return true;
-        }
-    }
-    return false;
-}
+    : mesh_(mesh), tracer_(tracer), seed_(seed), up_(up), bands_(bands), backs_(mesh) {}
 
 void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
     const auto start = PatchStart::in_any_axes(mesh_, patch);
@@ -97,9 +57,29 @@ void RowRays::trace(std::uint32_t patch, std::uint32_t rays, RowView& view) {
     if (std::abs(rise) >= level)
         view.open[static_cast<std::size_t>(rise > 0 ? Open::ground : Open::sky)] = {};
     OpenShare& back = view.open[static_cast<std::size_t>(Open::back)];
-    if (!(back.factor > 0) && !may_see_backs(mesh_.patches()[patch]))
+    if (!(back.factor > 0) && !backs_.face(mesh_.patches()[patch]))
         back = {};
     view.bands = shares_of(band_counts_, rays);
+}
+
+bool trace_all_rows(const RowScene& scene, std::uint32_t rays, const char* phase,
+                    const Workers& workers, Monitor& monitor,
+                    const std::function<void(std::uint32_t patch, const RowView& view)>& keep) {
+    const std::size_t patches = scene.mesh.patches().size();
+    RowsDone done(monitor, phase, patches);
+    workers.for_chunks_with(
+        patches, 16,
+        [&] { return RowRays(scene.mesh, scene.tracer, scene.seed, scene.up, scene.bands); },
+        [&](RowRays& row, std::size_t begin, std::size_t end) {
+            RowView view;
+            for (std::size_t i = begin; i < end && !monitor.interrupted.is_wished(); ++i) {
+                row.trace(static_cast<std::uint32_t>(i), rays, view);
+                keep(static_cast<std::uint32_t>(i), view);
+            }
+            monitor.rays += (end - begin) * rays;
+            done.add(end - begin);
+        });
+    return !monitor.interrupted.is_wished();
 }
 
 } // namespace hemilux

@@ -3,18 +3,20 @@
 // the backs of faces.
 
 #include "bvh/tracer.h"
-#include "geometry/box.h"
+#include "parallel/workers.h"
+#include "radiosity/engine/view_factors/facing_backs.h"
 #include "radiosity/engine/view_factors/open_share.h"
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace hemilux {
 
 class Mesh;
-struct Patch;
 class SkyBands;
+struct Monitor;
 
 /// A patch that rays of another hit, and how many.
 struct SeenPatch {
@@ -43,18 +45,31 @@ class RowRays {
     void trace(std::uint32_t patch, std::uint32_t rays, RowView& view);
 
   private:
-    [[nodiscard]] bool may_see_backs(const Patch& patch);
-
     const Mesh& mesh_;
     const Tracer& tracer_;
     std::uint64_t seed_;
     int up_;
     const SkyBands* bands_;
-    Box room_;                    ///< of all patches
-    std::uint32_t last_back_ = 0; ///< a facet whose back faced a patch
+    FacingBacks backs_;
     std::vector<std::uint32_t> band_counts_;
     std::vector<Ray> rays_;
     std::vector<std::uint32_t> receivers_, hit_;
 };
+
+/// What rays look at; all of it outlives them.
+struct RowScene {
+    const Mesh& mesh;
+    const Tracer& tracer;
+    std::uint64_t seed;
+    int up; ///< axis that points to the sky
+    const SkyBands* bands;
+};
+
+/// Traces `rays` rays of every patch, as RowRays does, and calls keep(patch, view), from all
+/// threads. `phase` is the monitor's. Returns false if an interrupt came before all were traced.
+[[nodiscard]] bool
+trace_all_rows(const RowScene& scene, std::uint32_t rays, const char* phase, const Workers& workers,
+               Monitor& monitor,
+               const std::function<void(std::uint32_t patch, const RowView& view)>& keep);
 
 } // namespace hemilux

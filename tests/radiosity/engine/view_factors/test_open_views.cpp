@@ -10,6 +10,7 @@
 #include "support/solve.h"
 
 #include <cmath>
+#include <string>
 
 using namespace hemilux;
 
@@ -71,6 +72,22 @@ TEST_CASE("Errors of the sky and the ground hold for patches of all tilts") {
     CHECK(count > 100);
     CHECK(std::sqrt(squares / count) < 1.2);
     CHECK(worst < 4.5);
+}
+
+TEST_CASE("The sky alone shows what is done, and how much of it") {
+    Scene scene = test::bare_scene();
+    for (int k = 0; k < 40; ++k)
+        add_tilted(scene, .1, Vec3(1.1 * (k % 7), .9 * (k / 7), .3 * ((5 * k) % 7)));
+    const test::Model model(std::move(scene));
+    Monitor whole, interrupted;
+    const OpenViews views =
+        find_open_views(model.mesh, model.bvh, {.ground = false}, Workers(1), whole);
+    CHECK(std::string(whole.phase) == "measuring the sky");
+    CHECK(whole.step_share == 1);
+    CHECK(whole.rays == views.rays);
+    interrupted.interrupted.set_wished(true);
+    CHECK(find_open_views(model.mesh, model.bvh, {}, Workers(1), interrupted).is_void);
+    CHECK(std::string(interrupted.phase) == "measuring sky and ground");
 }
 
 TEST_CASE("The sky alone has the same bytes for any number of threads, and needs fewer rays") {

@@ -263,3 +263,50 @@ TEST_CASE("Lines that all see the other are exact, and their error says that the
     CHECK(few.variance > 0);
     CHECK(many.variance < few.variance);
 }
+
+TEST_CASE("The errors of lines past slats hold, along them and across, for few and many lines") {
+    Rng random(5);
+    std::vector<double> errors;
+    double squares = 0;
+    for (int layout = 0; layout < 60; ++layout) {
+        const Polygon floor{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)}};
+        Polygon ceiling = floor.flipped();
+        for (Vec3& corner : ceiling.corner)
+            corner += Vec3(random.uniform(), 0, .7 + random.uniform());
+        std::vector<Polygon> slats;
+        const int count = 2 + static_cast<int>(20 * random.uniform());
+        const double pitch = 3.0 / count, height = .1 + .5 * random.uniform(),
+                     tilt = 1.4 * random.uniform(), slant = .4 * random.uniform();
+        const Vec3 half =
+            (.1 + .3 * random.uniform()) * pitch * Vec3(std::cos(tilt), 0, std::sin(tilt));
+        for (int k = 0; k < count; ++k) {
+            const Vec3 from(pitch * k - .5, -.5, height), to(pitch * k - .5 + slant, 1.5, height);
+            slats.push_back({{from - half, from + half, to + half, to - half}});
+        }
+        const FacePlane a = face_plane(floor), b = face_plane(ceiling);
+        for (const LinesAlong along : {LinesAlong::first_edge, LinesAlong::second_edge}) {
+            LineSamples truth(a, b, slats, along, 99);
+            truth.go_on_to(1 << 14);
+            for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+                LineSamples lines(a, b, slats, along, seed);
+                for (const std::uint32_t lines_now : {16u, 64u, 256u}) {
+                    lines.go_on_to(lines_now);
+                    const SeenShare seen = lines.seen();
+                    const double error = std::sqrt(seen.variance + truth.seen().variance);
+                    errors.push_back(std::abs(seen.share - truth.seen().share) / error);
+                    squares += errors.back() * errors.back();
+                }
+            }
+        }
+    }
+    const double all = double(errors.size());
+    const auto beyond = [&](double z) {
+        return double(std::ranges::count_if(errors, [z](double x) { return x > z; })) / all;
+    };
+    CHECK(all == 60 * 2 * 6 * 3);
+    CAPTURE(std::sqrt(squares / all), beyond(2), beyond(3.5));
+    CHECK(std::sqrt(squares / all) < 1.1);
+    CHECK(std::sqrt(squares / all) > .35); // nor are they far too large
+    CHECK(beyond(2) < .05);
+    CHECK(beyond(3.5) < .01);
+}
