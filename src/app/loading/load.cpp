@@ -23,6 +23,7 @@
 #include "parallel/workers.h"
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/engine/needs/unused_vertices.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/layers/layered_mesh.h"
 
@@ -227,6 +228,8 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
     MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods, before);
     need.results = bytes_of_results(patches_of(read.scene, settings.mesh));
     check_memory(need, settings.memory, settings.path);
+    if (!options.keep_all)
+        drop_unused_vertices(read.scene);
     const Stopwatch dividing;
     SidedMesh sided = divide_with_sides(std::move(read.scene), settings, options, verbosity);
     LoadedMesh loaded{std::move(sided.mesh),
