@@ -148,7 +148,7 @@ std::vector<Needless> needless_scenes() {
     dark_room.box({6, 0, 0}, {10, 3, 4}, true);
     dark_room.block(7, 0);
     ObjText divided_panel;
-    divided_panel.box({0, 0, 0}, {4, 3, 4}, true, "lamp", 3);
+    divided_panel.box({0, 0, 0}, {4, 3, 4}, true, "lamp", 2);
     ObjText twins = ObjText().lit_room();
     ObjText turned = ObjText().lit_room().block(1, 1);
     for (int k = 0; k < 2; ++k)
@@ -165,7 +165,7 @@ std::vector<Needless> needless_scenes() {
         {"a sealed dark room", dark_room, coloured, unlit, all},
         {"a thing outside a sealed room", ObjText().lit_room().block(6, 1), coloured, unlit, all},
         {"the outside of a room", turned, coloured, unlit, all, "--two-sided"},
-        {"a covered twin", twins, coloured, unlit, all},
+        {"a covered twin", twins, coloured, unlit, all, "--sides front"},
         {"a convex room",
          ObjText().lit_room(),
          coloured,
