@@ -225,11 +225,11 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
     log_warnings(verbosity, read.warnings);
     check_solvable(read, settings.path);
     const double seconds = reading.seconds();
+    if (!options.keep_all)
+        drop_unused_vertices(read.scene);
     MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods, before);
     need.results = bytes_of_results(patches_of(read.scene, settings.mesh));
     check_memory(need, settings.memory, settings.path);
-    if (!options.keep_all)
-        drop_unused_vertices(read.scene);
     const Stopwatch dividing;
     SidedMesh sided = divide_with_sides(std::move(read.scene), settings, options, verbosity);
     LoadedMesh loaded{std::move(sided.mesh),

@@ -154,9 +154,10 @@ std::vector<Needless> needless_scenes() {
     for (int k = 0; k < 2; ++k)
         twins.quad("white", {{{1, 1, 1}, {1, 1, 3}, {3, 1, 3}, {3, 1, 1}}});
     turned.quad("white", {{{0, -1, 0}, {1, -1, 0}, {1, -1, 1}, {0, -1, 1}}});
-    ObjText unused = ObjText().lit_room().block(1, 1);
+    ObjText unused; // before those in use, which all get other numbers
     for (int k = 0; k < 100; ++k)
         unused.vertex({.01 * k, 1, 1});
+    unused.lit_room().block(1, 1);
     ObjText few;
     few.quad("lamp", {{{0, 2, 0}, {1, 2, 0}, {1, 2, 1}, {0, 2, 1}}});
     few.quad("white", {{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}});

@@ -56,17 +56,16 @@ std::vector<CoveredSide> find_covered_sides(const Mesh& mesh) {
         return offset.facets[f][0] >= mesh.scene().vertices.size();
     };
     std::vector<Polygon> in_place;
-    bool any_offset = false;
+    std::vector<bool> moved;
     for (std::size_t f = 0; f < facets.size(); ++f) {
         in_place.push_back(polygon_of(mesh.vertices(), facets[f].vertex));
-        any_offset |= is_offset(f);
+        moved.push_back(is_offset(f));
     }
-    if (!any_offset)
+    if (std::ranges::find(moved, true) == moved.end())
         return {};
     std::vector<Over> all;
-    const bool found = for_each_close_pair(in_place, [&](std::uint32_t f, std::uint32_t g) {
-        if ((!is_offset(f) && !is_offset(g)) ||
-            contact_of(in_place[f], in_place[g]) != Contact::overlay)
+    const bool found = for_each_close_pair(in_place, moved, [&](std::uint32_t f, std::uint32_t g) {
+        if (contact_of(in_place[f], in_place[g]) != Contact::overlay)
             return;
         for (const Over& each : {over(mesh, in_place, f, g), over(mesh, in_place, g, f)})
             if (each.distance > between_layers)

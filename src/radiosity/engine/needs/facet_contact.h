@@ -42,35 +42,48 @@ inline constexpr double between_layers = 1e-9;
            glm::all(glm::lessThanEqual(b.low, a.high));
 }
 
-/// Calls visit(f, g) for each pair of polygons whose boxes overlap, f < g or g < f. Sorts them
-/// along x (Cohen et al. 1995, "I-COLLIDE"). Returns false where that is given up, as there are too
-/// many to be compared; that takes a quarter of a second at most.
+/// Calls visit(f, g) for each pair of polygons whose boxes overlap or touch and one of which is
+/// `wanted`, in either order. Sorts them along x (Cohen et al. 1995, "I-COLLIDE"). Returns false
+/// where that is given up, as there are too many to be compared.
 template <class Visit>
-bool for_each_close_pair(std::span<const Polygon> shapes, const Visit& visit) {
+bool for_each_close_pair(std::span<const Polygon> shapes, const std::vector<bool>& wanted,
+                         const Visit& visit) {
     constexpr std::size_t max_looks = 50'000'000, max_pairs = 2'000'000;
-    std::vector<Box> box;
     constexpr double rounding = 1e-9;
-    for (const Polygon& shape : shapes) {
-        const Box exact = box_of(shape.corner);
-        box.push_back({exact.low - rounding, exact.high + rounding});
+    struct Item {
+        Box box;
+        std::uint32_t shape;
+    };
+    std::vector<Item> all, some;
+    for (std::uint32_t f = 0; f < shapes.size(); ++f) {
+        const Box exact = box_of(shapes[f].corner);
+        all.push_back({{exact.low - rounding, exact.high + rounding}, f});
     }
-    std::vector<std::uint32_t> order(box.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::ranges::sort(order, {}, [&](std::uint32_t f) { return std::pair(box[f].low.x, f); });
+    std::ranges::sort(all, {}, [](const Item& i) { return std::pair(i.box.low.x, i.shape); });
+    for (const Item& item : all)
+        if (wanted[item.shape])
+            some.push_back(item);
     std::size_t looks = 0, pairs = 0;
-    for (std::size_t i = 0; i < order.size(); ++i)
-        for (std::size_t j = i + 1; j < order.size(); ++j) {
-            const std::uint32_t f = order[i], g = order[j];
-            if (box[g].low.x > box[f].high.x)
-                break;
-            if (++looks > max_looks)
-                return false;
-            if (!overlap(box[f], box[g]))
-                continue;
-            if (++pairs > max_pairs)
-                return false;
-            visit(f, g);
+    const auto visit_after = [&](const Item& item, auto first, auto last) {
+        for (; first != last && first->box.low.x <= item.box.high.x; ++first) {
+            ++looks;
+            if (overlap(item.box, first->box)) {
+                ++pairs;
+                visit(item.shape, first->shape);
+            }
         }
+    };
+    auto next = some.begin(); // the first wanted one behind `item`
+    for (auto item = all.begin(); item != all.end(); ++item) {
+        if (wanted[item->shape])
+            visit_after(*item, item + 1, all.end());
+        else
+            visit_after(*item, next, some.end());
+        if (looks > max_looks || pairs > max_pairs)
+            return false;
+        if (wanted[item->shape])
+            ++next;
+    }
     return true;
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -66,7 +67,8 @@ struct Side {
 
 class Spread {
   public:
-    explicit Spread(const Mesh& mesh) : mesh_(mesh), spaces_(mesh), shining_in_(spaces_.count()) {
+    Spread(const Mesh& mesh, SealedSpaces spaces)
+        : mesh_(mesh), spaces_(std::move(spaces)), shining_in_(spaces_.count()) {
         two_sided_ = std::ranges::any_of(mesh.patches(), &Patch::back);
         const FacetSoup soup = mesh.soup();
         for (const FacetCorners& corners : soup.facets) {
@@ -198,6 +200,8 @@ class Spread {
 
 } // namespace
 
-std::vector<bool> find_lit_patches(const Mesh& mesh) { return Spread(mesh).lit_patches(); }
+std::vector<bool> find_lit_patches(const Mesh& mesh, bool is_convex) {
+    return Spread(mesh, is_convex ? SealedSpaces() : SealedSpaces(mesh)).lit_patches();
+}
 
 } // namespace hemilux

@@ -12,6 +12,7 @@ class Mesh;
 
 /// Returns, by patch, whether light may reach it. The answer is never false where light comes; it
 /// is true where that would take too long to find out.
-[[nodiscard]] std::vector<bool> find_lit_patches(const Mesh& mesh);
+/// In a closed convex room (`is_convex`) no closed surface is looked for.
+[[nodiscard]] std::vector<bool> find_lit_patches(const Mesh& mesh, bool is_convex = false);
 
 } // namespace hemilux

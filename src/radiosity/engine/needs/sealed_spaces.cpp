@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -81,6 +82,7 @@ class Places {
         const bool no_points = point_emitters_of(mesh_.scene()).empty();
         if (one_sided && no_points && surfaces_.size() == 1)
             return false;
+        drop_empty_solids();
         if (std::ranges::none_of(surfaces_, &Surface::closed) || !find_contacts() ||
             !find_windings())
             return false;
@@ -106,10 +108,60 @@ class Places {
         return corners;
     }
 
+    /// Takes closed surfaces for open that no patch and no light can be inside of. They keep
+    /// nothing apart, and most things in a room are such.
+    void drop_empty_solids() {
+        std::vector<std::uint32_t> order(surfaces_.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::ranges::sort(order, {},
+                          [&](std::uint32_t s) { return std::pair(surfaces_[s].box.low.x, s); });
+        std::vector<bool> may_hold(surfaces_.size());
+        for (std::size_t i = 0; i < order.size(); ++i)
+            for (std::size_t j = i + 1; j < order.size(); ++j) {
+                const std::uint32_t a = order[i], b = order[j];
+                if (surfaces_[b].box.low.x > surfaces_[a].box.high.x)
+                    break;
+                if (!overlap(surfaces_[a].box, surfaces_[b].box))
+                    continue;
+                may_hold[a] = may_hold[a] || holds_facet(surfaces_[a], surfaces_[b]);
+                may_hold[b] = may_hold[b] || holds_facet(surfaces_[b], surfaces_[a]);
+            }
+        for (std::uint32_t s = 0; s < surfaces_.size(); ++s)
+            surfaces_[s].closed = surfaces_[s].closed &&
+                                  (may_hold[s] || holds_point(surfaces_[s]) || looks_inside(s));
+    }
+
+    [[nodiscard]] bool holds_facet(const Surface& surface, const Surface& other) const {
+        return surface.closed && std::ranges::any_of(other.facets, [&](std::uint32_t f) {
+                   const auto inside = [&](const Vec3& p) { return contains(surface.box, p); };
+                   return std::ranges::all_of(shapes_[f].corner, inside);
+               });
+    }
+    [[nodiscard]] bool holds_point(const Surface& surface) const {
+        return std::ranges::any_of(
+            point_emitters_of(mesh_.scene()), [&](const PointEmitter& emitter) {
+                return contains(surface.box, mesh_.frame().to_local(emitter.position));
+            });
+    }
+    /// Returns whether a surface has patches on its inner side.
+    [[nodiscard]] bool looks_inside(std::uint32_t s) const {
+        double volume = 0; // of cones over the facets
+        bool has_back = false;
+        for (const std::uint32_t f : surfaces_[s].facets) {
+            volume +=
+                glm::dot(shapes_[f].centre() - surfaces_[s].box.low, shapes_[f].area_vector());
+            has_back = has_back || mesh_.has_back(f);
+        }
+        return has_back || !(volume > 0);
+    }
+
     /// Finds which facets pass through a closed surface, lie on it or touch it. A surface that
     /// passes through itself or touches itself counts as open.
     bool find_contacts() {
-        return for_each_close_pair(shapes_, [&](std::uint32_t f, std::uint32_t g) {
+        std::vector<bool> of_closed(corners_.size());
+        for (std::uint32_t f = 0; f < corners_.size(); ++f)
+            of_closed[f] = surfaces_[surface_of_[f]].closed;
+        return for_each_close_pair(shapes_, of_closed, [&](std::uint32_t f, std::uint32_t g) {
             const std::uint32_t a = surface_of_[f], b = surface_of_[g];
             if (!surfaces_[a].closed && !surfaces_[b].closed)
                 return;

@@ -19,6 +19,8 @@ class Mesh;
 
 class SealedSpaces {
   public:
+    /// All is one space.
+    SealedSpaces() = default;
     /// Finds the spaces of a mesh. In a scene of very many facets, or of very many surfaces that
     /// contain others, it finds one space only.
     explicit SealedSpaces(const Mesh& mesh);

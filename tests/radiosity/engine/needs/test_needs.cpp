@@ -5,6 +5,7 @@
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/needs/lit_facets.h"
+#include "radiosity/engine/needs/unused_vertices.h"
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/engine/solving/left_out.h"
@@ -516,6 +517,20 @@ TEST_CASE("Few triangles are traced without a tree, with the same hits") {
         CHECK(flat.tracer->count(ray) == tree.tracer->count(ray));
         CHECK(flat.tracer->occluded(ray, 0) == tree.tracer->occluded(ray, 0));
     }
+}
+
+TEST_CASE("Vertices that no facet uses are dropped") {
+    const Scene scene = grey_cube();
+    Scene untidy = scene;
+    untidy.vertices.insert(untidy.vertices.begin() + 3, {{9, 9, 9}, {8, 8, 8}});
+    untidy.vertices.push_back({7, 7, 7});
+    for (Facet& facet : untidy.facets)
+        for (std::uint32_t& v : facet.vertex)
+            v += v < 3 ? 0 : 2;
+    drop_unused_vertices(untidy);
+    CHECK(untidy.vertices == scene.vertices);
+    for (std::size_t f = 0; f < scene.facets.size(); ++f)
+        CHECK(untidy.facets[f].vertex == scene.facets[f].vertex);
 }
 
 TEST_CASE("A channel is solved unless another is the same in all materials in use, or it is dark") {
