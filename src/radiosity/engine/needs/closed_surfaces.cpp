@@ -28,7 +28,7 @@ class Pairs {
                        });
     }
 
-    Surfaces surfaces() {
+    ConnectedSurfaces surfaces() {
         std::vector<Surface> all;
         std::vector<std::uint32_t> surface_of(soup_.facets.size());
         for (std::uint32_t f = 0; f < soup_.facets.size(); ++f) {
@@ -50,7 +50,8 @@ class Pairs {
     /// Joins the facets of an edge in pairs. Returns false if that is not possible.
     bool pair_up(EdgeIterator first, EdgeIterator last) {
         constexpr std::ptrdiff_t max_facets = 16;
-        const auto forward = std::ranges::count(first, last, true, &Edge::forward);
+        const auto forward =
+            std::count_if(first, last, [](const Edge& edge) { return edge.forward; });
         if (2 * forward != last - first || last - first > max_facets)
             return false;
         std::vector<std::uint32_t> partners;
@@ -122,7 +123,7 @@ double signed_solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 } // namespace
 
-Surfaces find_surfaces(const FacetSoup& soup) { return Pairs(soup).surfaces(); }
+ConnectedSurfaces find_surfaces(const FacetSoup& soup) { return Pairs(soup).surfaces(); }
 
 std::optional<double> winding_number(const FacetSoup& soup, const Surface& surface,
                                      const Vec3& point, std::optional<std::uint32_t> without) {

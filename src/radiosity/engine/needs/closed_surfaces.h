@@ -21,14 +21,14 @@ struct Surface {
     bool closed = true;
 };
 
-struct Surfaces {
+struct ConnectedSurfaces {
     std::vector<Surface> all;
     std::vector<std::array<std::uint32_t, 2>> neighbours; ///< facets of one surface at one edge
 };
 
 /// Finds the surfaces that all facets belong to, each to one, in O(n log n) time. Where more than
 /// two facets share an edge, those go together that face each other.
-[[nodiscard]] Surfaces find_surfaces(const FacetSoup& soup);
+[[nodiscard]] ConnectedSurfaces find_surfaces(const FacetSoup& soup);
 
 /// Returns the winding number of a closed surface at a point: how many times it lies around it with
 /// its front towards it, less those with its back. `without` is a facet that does not count; for a

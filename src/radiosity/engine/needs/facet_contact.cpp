@@ -17,10 +17,12 @@ double gap_along(const Vec3& direction, const Polygon& a, const Polygon& b) {
     if (!(length > 0))
         return -std::numeric_limits<double>::infinity();
     const auto range = [&](const Polygon& p) {
-        std::array<double, 4> at{};
-        for (std::size_t k = 0; k < 4; ++k)
-            at[k] = glm::dot(direction, p.corner[k]) / length;
-        const auto [low, high] = std::ranges::minmax(at);
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const Vec3& corner : p.corner) {
+            const double at = glm::dot(direction, corner) / length;
+            low = std::min(low, at);
+            high = std::max(high, at);
+        }
         return std::array{low, high};
     };
     const auto [a_low, a_high] = range(a);

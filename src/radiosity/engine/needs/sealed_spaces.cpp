@@ -66,7 +66,7 @@ class Places {
     explicit Places(const Mesh& mesh)
         : mesh_(mesh), corners_(corners_of(mesh.scene())), soup_{mesh.vertices(), corners_},
           surface_of_(corners_.size()), touches_(corners_.size()) {
-        Surfaces found = find_surfaces(soup_);
+        ConnectedSurfaces found = find_surfaces(soup_);
         surfaces_ = std::move(found.all);
         neighbours_ = std::move(found.neighbours);
         for (const FacetCorners& corners : corners_)
@@ -330,8 +330,9 @@ class Places {
     void keep_surfaces_that_tell() {
         std::vector<bool> tells(surfaces_.size());
         const auto for_all = [&](const auto& visit) {
-            std::ranges::for_each(of_side_, visit);
-            std::ranges::for_each(of_point_, visit);
+            for (std::vector<Windings>* places : {&of_side_, &of_point_})
+                for (Windings& windings : *places)
+                    visit(windings);
         };
         for_all([&](const Windings& windings) {
             for (const Winding& w : windings)
