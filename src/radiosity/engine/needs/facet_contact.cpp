@@ -7,8 +7,8 @@
 namespace hemilux {
 namespace {
 
-/// Depths and distances that are nothing but rounding [local units].
-constexpr double rounding = 1e-9;
+/// Depths and distances below this count as none [local units].
+constexpr double thin = 1e-9;
 
 /// Returns the gap between the polygons along an axis; negative: how far they overlap there. An
 /// axis without length separates nothing.
@@ -35,9 +35,8 @@ Vec3 edge_of(const Polygon& p, std::size_t k) { return p.corner[(k + 1) % 4] - p
 /// Returns whether all corners lie in the other's plane.
 bool lies_in_plane_of(const Polygon& a, const Polygon& b) {
     const Vec3 n = b.normal();
-    return std::ranges::all_of(a.corner, [&](const Vec3& p) {
-        return std::abs(glm::dot(n, p - b.corner[0])) <= rounding;
-    });
+    return std::ranges::all_of(
+        a.corner, [&](const Vec3& p) { return std::abs(glm::dot(n, p - b.corner[0])) <= thin; });
 }
 
 /// Finds the largest gap along some axes, but looks no further beyond the first above `enough`.
@@ -80,7 +79,7 @@ Polygon shrunk(Polygon p, double part, const Which& which) {
 
 bool is_corner_of(const Vec3& p, const Polygon& of) {
     return std::ranges::any_of(of.corner,
-                               [&](const Vec3& c) { return glm::length(c - p) <= rounding; });
+                               [&](const Vec3& c) { return glm::length(c - p) <= thin; });
 }
 
 /// Returns whether the polygons share opposite corners of a quad.
@@ -97,7 +96,7 @@ bool lies_within(const Polygon& a, const Polygon& b) {
         const Vec3 inward = glm::cross(n, edge_of(b, k));
         const double length = glm::length(inward);
         if (std::ranges::any_of(a.corner, [&](const Vec3& p) {
-                return glm::dot(inward, p - b.corner[k]) < -rounding * length;
+                return glm::dot(inward, p - b.corner[k]) < -thin * length;
             }))
             return false;
     }
@@ -106,14 +105,14 @@ bool lies_within(const Polygon& a, const Polygon& b) {
 
 Contact contact_of(const Polygon& a, const Polygon& b) {
     const bool in_one_plane = lies_in_plane_of(a, b) || lies_in_plane_of(b, a);
-    LargestGap largest(a, b, rounding);
+    LargestGap largest(a, b, thin);
     if (in_one_plane)
         largest.in_plane();
     else
         largest.in_space();
-    if (largest.gap() > rounding)
+    if (largest.gap() > thin)
         return Contact::apart;
-    if (largest.gap() >= -rounding)
+    if (largest.gap() >= -thin)
         return Contact::touching;
     return in_one_plane ? Contact::overlay : Contact::crossing;
 }

@@ -48,7 +48,7 @@ inline constexpr double between_layers = 1e-9;
 template <class Visit>
 bool for_each_close_pair(std::span<const Polygon> shapes, const std::vector<bool>& wanted,
                          const Visit& visit) {
-    constexpr std::size_t max_looks = 50'000'000, max_pairs = 2'000'000;
+    constexpr std::size_t max_looks = 50'000'000, max_close_pairs = 2'000'000;
     constexpr double rounding = 1e-9;
     struct Item {
         Box box;
@@ -79,7 +79,7 @@ bool for_each_close_pair(std::span<const Polygon> shapes, const std::vector<bool
             visit_after(*item, item + 1, all.end());
         else
             visit_after(*item, next, some.end());
-        if (looks > max_looks || pairs > max_pairs)
+        if (looks > max_looks || pairs > max_close_pairs)
             return false;
         if (wanted[item->shape])
             ++next;
