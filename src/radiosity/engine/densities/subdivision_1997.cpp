@@ -69,25 +69,17 @@ void Subdivision1997::find(int level, const Tracer& tracer, const Workers& worke
     for (const int last = std::min(level, stored_levels()); found_ < last; ++found_) {
         std::atomic<std::uint64_t> counted{0};
         workers.for_chunks(hemispheres, 16, [&](std::size_t begin, std::size_t end) {
-            Counts counts;
-            if (monitor.interrupted)
-                return;
-            for (std::size_t i = begin; i < end; ++i)
+            for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
                 for (std::size_t part = 0; part < parts(); ++part)
-                    find_directions(found_ + 1, i, part, counts);
-            std::vector<std::uint32_t> pierced(counts.rays.size());
-            tracer.count_stream(counts.rays, pierced);
-            for (std::size_t k = 0; k < pierced.size(); ++k)
-                count_[counts.places[k]] = static_cast<std::uint8_t>(std::min(pierced[k], 255u));
-            counted += pierced.size();
+                    counted += find_level(found_ + 1, i, part, tracer);
         });
         rays_ += counted;
         monitor.rays += counted;
     }
 }
 
-void Subdivision1997::find_directions(int level, std::size_t index, std::size_t part,
-                                      Counts& counts) {
+std::size_t Subdivision1997::find_level(int level, std::size_t index, std::size_t part,
+                                        const Tracer& tracer) {
     const std::uint32_t patch =
         patch_of_.empty() ? static_cast<std::uint32_t>(index) : patch_of_[index];
     const Patch& from = mesh_.patches()[patch == none ? 0 : patch];
@@ -99,19 +91,20 @@ void Subdivision1997::find_directions(int level, std::size_t index, std::size_t 
                                       static_cast<float>(v.z)};
         if (patch == none)
             return;
-        counts.rays.push_back({.origin = origin,
-                               .direction = frame.to_world(density_direction(v)),
-                               .from = from.facet});
-        counts.places.push_back(begin + vertex);
+        const Ray ray{.origin = origin,
+                      .direction = frame.to_world(density_direction(v)),
+                      .from = from.facet};
+        count_[begin + vertex] = static_cast<std::uint8_t>(std::min(tracer.count(ray), 255u));
     };
     if (level == 0) {
         for (std::size_t v = 0; v < octant_vertices; ++v)
             keep(v, topology_.vertices()[v]);
-        return;
+        return patch == none ? 0 : octant_vertices;
     }
     // Vertices are numbered in the order in which triangles need them.
     const auto& cells = topology_.cells();
-    std::size_t known = cells[Hemisphere::cells_up_to(level - 2)].midpoint[0];
+    const std::size_t first = cells[Hemisphere::cells_up_to(level - 2)].midpoint[0];
+    std::size_t known = first;
     for (std::size_t c = Hemisphere::cells_up_to(level - 2); c < Hemisphere::cells_up_to(level - 1);
          ++c)
         for (std::size_t edge = 0; edge < 3; ++edge) {
@@ -122,6 +115,7 @@ void Subdivision1997::find_directions(int level, std::size_t index, std::size_t 
             keep(known++, point_on_arc(p1.direction, p2.direction,
                                        division_share(p1.surfaces, p2.surfaces)));
         }
+    return patch == none ? 0 : known - first;
 }
 
 CountedDirection Subdivision1997::stored(std::size_t at) const {

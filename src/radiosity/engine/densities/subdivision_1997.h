@@ -73,13 +73,9 @@ class Subdivision1997 {
         return (index * parts() + part) * topology_.vertices().size();
     }
     [[nodiscard]] CountedDirection stored(std::size_t at) const;
-    /// The rays of several parts, and where their counts belong.
-    struct Counts {
-        std::vector<Ray> rays;
-        std::vector<std::size_t> places;
-    };
-    /// Finds the directions that a level adds to a part of hemispheres `index`.
-    void find_directions(int level, std::size_t index, std::size_t part, Counts& counts);
+    /// Finds the directions that a level adds to a part of hemispheres `index`, in the patch's
+    /// order of vertices. Returns the number of rays that were counted.
+    std::size_t find_level(int level, std::size_t index, std::size_t part, const Tracer& tracer);
 
     const Mesh& mesh_;
     Subdivision1997Options options_;
