@@ -24,7 +24,8 @@ bool writes_mesh(const SolveSettings& settings) {
 AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches) {
     AdaptiveDivision division{.error = share_of_division * whole_error(settings),
                               .seed = settings.options.seed,
-                              .threads = settings.options.threads};
+                              .threads = settings.options.threads,
+                              .keep_all = settings.options.keep_all};
     if (settings.stop.rays)
         division.max_rays = *settings.stop.rays;
     if (!settings.divide_given)

@@ -23,6 +23,7 @@
 #include "parallel/workers.h"
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/engine/needs/unused_vertices.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/layers/layered_mesh.h"
 
@@ -224,6 +225,8 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
     log_warnings(verbosity, read.warnings);
     check_solvable(read, settings.path);
     const double seconds = reading.seconds();
+    if (!options.keep_all)
+        drop_unused_vertices(read.scene);
     MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods, before);
     need.results = bytes_of_results(patches_of(read.scene, settings.mesh));
     check_memory(need, settings.memory, settings.path);

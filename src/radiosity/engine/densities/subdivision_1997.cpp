@@ -1,8 +1,10 @@
 #include "radiosity/engine/densities/subdivision_1997.h"
 
+#include "geometry/frame.h"
 #include "parallel/workers.h"
 #include "radiosity/paper/hemisphere/density_direction.h"
 #include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/scene/needs.h"
 
 #include <algorithm>
 #include <atomic>
@@ -39,10 +41,20 @@ void Subdivision1997::check(const Subdivision1997Options& options) {
 
 Subdivision1997::Subdivision1997(const Mesh& mesh, const Needs& needs,
                                  const Subdivision1997Options& options)
-    : mesh_(mesh), needs_(needs), options_((check(options), options)), topology_(stored_levels()) {
-    const std::size_t patches = needs.visibility ? mesh.patches().size() : 1;
-    direction_.resize(patches * parts() * topology_.vertices().size());
-    count_.resize(direction_.size());
+    : mesh_(mesh), options_((check(options), options)), topology_(stored_levels()) {
+    std::size_t hemispheres = mesh.patches().size();
+    if (!needs.visibility || !needs.idle.empty()) {
+        hemispheres_of_.assign(hemispheres, 0);
+        patch_of_ = {none};
+        for (std::uint32_t i = 0; needs.visibility && i < hemispheres_of_.size(); ++i)
+            if (needs.power(i)) {
+                hemispheres_of_[i] = static_cast<std::uint32_t>(patch_of_.size());
+                patch_of_.push_back(i);
+            }
+        hemispheres = patch_of_.size();
+    }
+    direction_.resize(hemispheres * parts() * topology_.vertices().size());
+    count_.resize(direction_.size(), 1);
 }
 
 double Subdivision1997::bytes_of_patch(const Subdivision1997Options& options) {
@@ -53,35 +65,41 @@ double Subdivision1997::bytes_of_patch(const Subdivision1997Options& options) {
 
 void Subdivision1997::find(int level, const Tracer& tracer, const Workers& workers,
                            Monitor& monitor) {
-    const std::size_t patches = needs_.visibility ? mesh_.patches().size() : 1;
+    const std::size_t hemispheres = count_.size() / (parts() * topology_.vertices().size());
     for (const int last = std::min(level, stored_levels()); found_ < last; ++found_) {
         std::atomic<std::uint64_t> counted{0};
-        workers.for_chunks(patches, 16, [&](std::size_t begin, std::size_t end) {
-            for (auto i = static_cast<std::uint32_t>(begin); i < end && !monitor.interrupted; ++i)
+        workers.for_chunks(hemispheres, 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
                 for (std::size_t part = 0; part < parts(); ++part)
-                    if (!needs_.visibility || needs_.power(i))
-                        counted += find_level(found_ + 1, i, part, tracer);
+                    counted += find_level(found_ + 1, i, part, tracer);
         });
-        if (needs_.visibility) {
-            rays_ += counted;
-            monitor.rays += counted;
-        }
+        rays_ += counted;
+        monitor.rays += counted;
     }
 }
 
-std::size_t Subdivision1997::find_level(int level, std::uint32_t patch, std::size_t part,
+std::size_t Subdivision1997::find_level(int level, std::size_t index, std::size_t part,
                                         const Tracer& tracer) {
-    const Vec3 centre = part_of(mesh_.patches()[patch].shape, parts(), part).centre();
-    const std::size_t begin = place(patch, part);
+    const std::uint32_t patch =
+        patch_of_.empty() ? static_cast<std::uint32_t>(index) : patch_of_[index];
+    const Patch& from = mesh_.patches()[patch == none ? 0 : patch];
+    const Vec3 origin = part_of(from.shape, parts(), part).centre();
+    const Frame frame = mesh_.hemisphere_frame(patch == none ? 0 : patch);
+    const std::size_t begin = place_of_hemispheres(index, part);
     const auto keep = [&](std::size_t vertex, const Vec3& v) {
         direction_[begin + vertex] = {static_cast<float>(v.x), static_cast<float>(v.y),
                                       static_cast<float>(v.z)};
-        count_[begin + vertex] = count(patch, centre, v, tracer);
+        if (patch == none)
+            return;
+        const Ray ray{.origin = origin,
+                      .direction = frame.to_world(density_direction(v)),
+                      .from = from.facet};
+        count_[begin + vertex] = static_cast<std::uint8_t>(std::min(tracer.count(ray), 255u));
     };
     if (level == 0) {
         for (std::size_t v = 0; v < octant_vertices; ++v)
             keep(v, topology_.vertices()[v]);
-        return octant_vertices;
+        return patch == none ? 0 : octant_vertices;
     }
     // Vertices are numbered in the order in which triangles need them.
     const auto& cells = topology_.cells();
@@ -97,17 +115,7 @@ std::size_t Subdivision1997::find_level(int level, std::uint32_t patch, std::siz
             keep(known++, point_on_arc(p1.direction, p2.direction,
                                        division_share(p1.surfaces, p2.surfaces)));
         }
-    return known - first;
-}
-
-std::uint8_t Subdivision1997::count(std::uint32_t patch, const Vec3& from, const Vec3& direction,
-                                    const Tracer& tracer) const {
-    if (!needs_.visibility)
-        return 1;
-    const Ray ray{.origin = from,
-                  .direction = mesh_.hemisphere_frame(patch).to_world(density_direction(direction)),
-                  .from = mesh_.patches()[patch].facet};
-    return static_cast<std::uint8_t>(std::min(tracer.count(ray), 255u));
+    return patch == none ? 0 : known - first;
 }
 
 CountedDirection Subdivision1997::stored(std::size_t at) const {

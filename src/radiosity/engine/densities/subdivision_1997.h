@@ -10,7 +10,6 @@
 #include "radiosity/paper/hemisphere/edge_division.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "radiosity/paper/hemisphere/subdivision_1997_options.h"
-#include "radiosity/paper/scene/needs.h"
 #include "radiosity/paper/solving/solver.h"
 
 #include <array>
@@ -20,6 +19,7 @@
 namespace hemilux {
 
 class Mesh;
+struct Needs;
 class Workers;
 
 class Subdivision1997 {
@@ -33,11 +33,12 @@ class Subdivision1997 {
     static constexpr std::array<std::uint32_t, 7> estimated_choices{0, 1, 2, 3, 4, 5, 6};
     static constexpr std::array<std::uint32_t, 4> part_choices{1, 4, 16, 64};
 
-    /// Checks the options. Nothing is counted yet. `mesh` and `needs` must outlive this object.
+    /// Checks the options. Nothing is counted yet. `mesh` must outlive this object.
     Subdivision1997(const Mesh& mesh, const Needs& needs, const Subdivision1997Options& options);
 
     /// Finds the directions of all triangles up to this level, as far as they are to be stored, and
-    /// counts the surfaces along them. Where the needs say that all counts are 1, no ray is traced.
+    /// counts the surfaces along them. Where the needs say that all counts are 1, and for patches
+    /// that never hold power, no ray is traced: they share hemispheres in which all counts are 1.
     void find(int level, const Tracer& tracer, const Workers& workers, Monitor& monitor);
 
     [[nodiscard]] std::size_t parts() const { return options_.parts; }
@@ -64,23 +65,28 @@ class Subdivision1997 {
 
   private:
     [[nodiscard]] int stored_levels() const { return static_cast<int>(options_.stored_steps); }
-    /// Returns where the directions of a part begin. If all counts are 1, all patches are alike.
+    /// Returns where the directions of a part begin.
     [[nodiscard]] std::size_t place(std::uint32_t patch, std::size_t part) const {
-        return ((needs_.visibility ? patch : 0) * parts() + part) * topology_.vertices().size();
+        return place_of_hemispheres(hemispheres_of_.empty() ? patch : hemispheres_of_[patch], part);
+    }
+    [[nodiscard]] std::size_t place_of_hemispheres(std::size_t index, std::size_t part) const {
+        return (index * parts() + part) * topology_.vertices().size();
     }
     [[nodiscard]] CountedDirection stored(std::size_t at) const;
-    /// Finds the directions that a level adds, in the patch's order of vertices; returns how many.
-    std::size_t find_level(int level, std::uint32_t patch, std::size_t part, const Tracer& tracer);
-    [[nodiscard]] std::uint8_t count(std::uint32_t patch, const Vec3& from, const Vec3& direction,
-                                     const Tracer& tracer) const;
+    /// Finds the directions that a level adds to a part of hemispheres `index`, in the patch's
+    /// order of vertices. Returns the number of rays that were counted.
+    std::size_t find_level(int level, std::size_t index, std::size_t part, const Tracer& tracer);
 
     const Mesh& mesh_;
-    const Needs& needs_;
     Subdivision1997Options options_;
     Hemisphere topology_;
     int found_ = -1; ///< the last level that was
     std::uint64_t rays_ = 0;
-    // These are by patch, part and vertex of the topology, in the patch's own frame.
+    /// The patch of each hemispheres; `none` has those of all patches that need no counts. Both are
+    /// empty where each patch has its own, in the order of patches.
+    std::vector<std::uint32_t> patch_of_;
+    std::vector<std::uint32_t> hemispheres_of_; ///< by patch
+    // These are by hemispheres, part and vertex of the topology, in the patch's own frame.
     std::vector<std::array<float, 3>> direction_;
     std::vector<std::uint8_t> count_;
 };

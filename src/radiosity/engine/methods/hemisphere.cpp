@@ -35,22 +35,21 @@ class HemisphereStrategy final : public Strategy {
   public:
     HemisphereStrategy(const SolverInput& input, const Hemisphere& hemisphere,
                        const Workers& workers)
-        : printed_(input.options.literal) {
+        : needs_(input.needs), printed_(input.options.literal) {
         for (std::size_t cell = 0; cell < hemisphere.cells().size(); ++cell)
             area_shares_.push_back(power_share(hemisphere, static_cast<std::uint16_t>(cell),
                                                shooting_rules(input.options).area));
+        allocate_leaves(leaves_of_one_surface(hemisphere, input.options.threshold),
+                        allocated_of_one_surface_);
         if (input.needs.visibility)
             densities_ = find_densities(input, hemisphere, workers);
-        else
-            allocate_leaves(leaves_of_one_surface(hemisphere, input.options.threshold),
-                            allocated_of_one_surface_);
         const std::size_t cells = hemisphere.cells().size() * input.mesh.patches().size();
         if (densities_ && cells <= max_kept_cells && !input.monitor.interrupted)
             keep_allocated(input, workers);
     }
 
     Allocation allocate(std::uint32_t patch, AllocatedCells& memory) const override {
-        if (!densities_)
+        if (!densities_ || !needs_.power(patch))
             return allocated_of_one_surface_.view();
         if (!kept_.empty())
             return kept_[patch].view();
@@ -135,10 +134,11 @@ class HemisphereStrategy final : public Strategy {
     /// times the mean. Where nothing is seen anywhere, rays then follow the power (D5).
     static constexpr double min_density = 1, min_share = 0.25;
 
+    const Needs& needs_;
     bool printed_;
     std::vector<double> area_shares_; ///< shares by cell
     std::unique_ptr<LeafDensities> densities_;
-    AllocatedCells allocated_of_one_surface_; ///< cells of all patches, without densities_
+    AllocatedCells allocated_of_one_surface_; ///< cells of patches without densities
     std::vector<AllocatedCells> kept_;        ///< cells by patch, in small scenes
 };
 

@@ -161,7 +161,8 @@ class StoredTransportSolver final : public Solver, public KeepsRays {
         plan_.begin();
         if (!trace(0))
             return false;
-        plan_.leave_out(rays_.lit_patches(system_.emission()));
+        if (!input_.options.keep_all)
+            plan_.leave_out(rays_.lit_patches(system_.emission()));
         if (aim_.has_target())
             renew_aim();
         return true;
@@ -218,7 +219,9 @@ class StoredTransportSolver final : public Solver, public KeepsRays {
         const TransportResult result{input_.mesh, system_,        light_,       all,
                                      rows,        rays_.direct(), input_.target};
         const BatchSpread spread = spread_of_batches(result, aim_, workers_);
-        const TransportErrors errors = errors_of(result, workers_);
+        TransportErrors errors = errors_of(result, workers_);
+        if (input_.options.keep_all)
+            keep_all_patches(errors);
         errors_ = StepErrors(errors, spread);
         report(errors, spread, input_.needs, solution_);
         add_unsolved(solved.unsolved, input_.mesh, solution_);
@@ -233,6 +236,13 @@ class StoredTransportSolver final : public Solver, public KeepsRays {
         solution_.figures.set(transport_figures::bytes,
                               all.bytes() + rays_.direct().bytes() + rays_.bytes_of_counts());
         ++solution_.steps;
+    }
+
+    /// Lets all patches have rays: as if all were lit, and of one part.
+    static void keep_all_patches(TransportErrors& errors) {
+        errors.lit.assign(errors.lit.size(), true);
+        errors.needs_rays = errors.lit;
+        errors.part.assign(errors.part.size(), 0);
     }
 
     /// Sets the light of all patches. Returns what each sends that random rays must find.

@@ -1,5 +1,7 @@
 #include "radiosity/engine/needs/lit_facets.h"
 
+#include "radiosity/engine/needs/covered_sides.h"
+#include "radiosity/engine/needs/sealed_spaces.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -7,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -64,7 +67,8 @@ struct Side {
 
 class Spread {
   public:
-    explicit Spread(const Mesh& mesh) : mesh_(mesh) {
+    Spread(const Mesh& mesh, SealedSpaces spaces)
+        : mesh_(mesh), spaces_(std::move(spaces)), shining_in_(spaces_.count()) {
         two_sided_ = std::ranges::any_of(mesh.patches(), &Patch::back);
         const FacetSoup soup = mesh.soup();
         for (const FacetCorners& corners : soup.facets) {
@@ -74,21 +78,38 @@ class Spread {
                 sides_.emplace_back(shape.flipped());
         }
         lit_.resize(sides_.size());
+        for (std::uint32_t s = 0; s < sides_.size(); ++s)
+            has_patches_.push_back(is_front(s) || mesh.has_back(facet_of(s)));
+        covered_.resize(sides_.size());
+        sides_faced_.resize(sides_.size());
+        for (const CoveredSide& covered : find_covered_sides(mesh)) {
+            if (!two_sided_ && covered.side % 2 == 1)
+                continue;
+            const std::uint32_t s = two_sided_ ? covered.side : covered.side / 2;
+            covered_[s] = true;
+            for (const FacetSide side : covered.faces)
+                if (two_sided_ || side % 2 == 0)
+                    sides_faced_[s].push_back(two_sided_ ? side : side / 2);
+        }
     }
 
     std::vector<bool> lit_patches() {
         for (std::uint32_t s = 0; s < sides_.size(); ++s)
-            if (glm::any(glm::greaterThan(material(s).emission, Vec3(0.0))))
+            if (has_patches_[s] && glm::any(glm::greaterThan(material(s).emission, Vec3(0.0))))
                 shining_.push_back(s);
         light_by_points();
         std::vector<bool> shone(sides_.size());
         while (!shining_.empty()) {
-            for (const std::uint32_t s : shining_)
+            for (std::vector<std::uint32_t>& of_space : shining_in_)
+                of_space.clear();
+            for (const std::uint32_t s : shining_) {
                 shone[s] = true;
+                shining_in_[space_of(s)].push_back(s);
+            }
             last_ = shining_.front();
             std::vector<std::uint32_t> next;
             for (std::uint32_t s = 0; s < sides_.size(); ++s)
-                if (!lit_[s] && is_reached(s)) {
+                if (!lit_[s] && has_patches_[s] && is_reached(s)) {
                     lit_[s] = true;
                     if (!shone[s] && glm::any(glm::greaterThan(material(s).reflectance, Vec3(0.0))))
                         next.push_back(s);
@@ -103,17 +124,27 @@ class Spread {
     }
 
   private:
+    [[nodiscard]] std::uint32_t facet_of(std::uint32_t side) const {
+        return two_sided_ ? side / 2 : side;
+    }
+    [[nodiscard]] bool is_front(std::uint32_t side) const { return !two_sided_ || side % 2 == 0; }
     [[nodiscard]] const Material& material(std::uint32_t side) const {
         const Scene& scene = mesh_.scene();
-        return scene.materials[scene.facets[two_sided_ ? side / 2 : side].material];
+        return scene.materials[scene.facets[facet_of(side)].material];
+    }
+    [[nodiscard]] std::uint32_t space_of(std::uint32_t side) const {
+        return spaces_.of(facet_of(side), is_front(side));
     }
 
     /// Lights the sides in front of which a light without extent stands. Those that reflect begin
     /// to shine.
     void light_by_points() {
-        for (const PointEmitter& emitter : point_emitters_of(mesh_.scene()))
+        const auto emitters = point_emitters_of(mesh_.scene());
+        for (std::size_t k = 0; k < emitters.size(); ++k)
             for (std::uint32_t s = 0; s < sides_.size(); ++s) {
-                if (lit_[s] || !sides_[s].is_in_front(mesh_.frame().to_local(emitter.position)))
+                if (lit_[s] || !has_patches_[s] || covered_[s] ||
+                    !spaces_.may_exchange(space_of(s), spaces_.of_point_emitter(k)) ||
+                    !sides_[s].is_in_front(mesh_.frame().to_local(emitters[k].position)))
                     continue;
                 lit_[s] = true;
                 if (material(s).emission == Vec3(0.0) && material(s).reflectance != Vec3(0.0))
@@ -124,32 +155,53 @@ class Spread {
     /// Returns whether one of the sides that have just begun to shine shines at this one. Tests the
     /// side that was found last first.
     bool is_reached(std::uint32_t s) {
-        if (sees(s, last_) || looks_ > max_looks)
+        if (spaces_.may_exchange(space_of(s), space_of(last_)) && sees(s, last_))
             return true;
-        const auto found =
-            std::ranges::find_if(shining_, [&](std::uint32_t other) { return sees(s, other); });
-        looks_ += static_cast<std::size_t>(found - shining_.begin());
-        if (found == shining_.end())
-            return false;
-        last_ = *found;
-        return true;
+        for (std::uint32_t space = 0; space < spaces_.count(); ++space) {
+            const std::vector<std::uint32_t>& others = shining_in_[space];
+            if (others.empty() || !spaces_.may_exchange(space_of(s), space))
+                continue;
+            if (looks_ > max_looks)
+                return true;
+            const auto found =
+                std::ranges::find_if(others, [&](std::uint32_t other) { return sees(s, other); });
+            looks_ += static_cast<std::size_t>(found - others.begin());
+            if (found != others.end()) {
+                last_ = *found;
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /// Returns whether no cover is between two sides, as far as the first one's is concerned.
+    [[nodiscard]] bool may_face(std::uint32_t s, std::uint32_t other) const {
+        return !covered_[s] || std::ranges::find(sides_faced_[s], other) != sides_faced_[s].end();
     }
 
     [[nodiscard]] bool sees(std::uint32_t s, std::uint32_t shining) const {
-        return sides_[s].has_in_front(sides_[shining]) && sides_[shining].has_in_front(sides_[s]);
+        return may_face(s, shining) && may_face(shining, s) &&
+               sides_[s].has_in_front(sides_[shining]) && sides_[shining].has_in_front(sides_[s]);
     }
 
     const Mesh& mesh_;
+    SealedSpaces spaces_;
     bool two_sided_ = false;
     std::vector<Side> sides_;
+    std::vector<bool> has_patches_;
+    std::vector<bool> covered_;
+    std::vector<std::vector<std::uint32_t>> sides_faced_; ///< of covered sides
     std::vector<bool> lit_;
-    std::vector<std::uint32_t> shining_; ///< facets that began to shine since the last round
+    std::vector<std::uint32_t> shining_; ///< sides that began to shine since the last round
+    std::vector<std::vector<std::uint32_t>> shining_in_; ///< these by space
     std::size_t looks_ = 0;
     std::uint32_t last_ = 0;
 };
 
 } // namespace
 
-std::vector<bool> find_lit_patches(const Mesh& mesh) { return Spread(mesh).lit_patches(); }
+std::vector<bool> find_lit_patches(const Mesh& mesh, bool is_convex) {
+    return Spread(mesh, is_convex ? SealedSpaces() : SealedSpaces(mesh)).lit_patches();
+}
 
 } // namespace hemilux

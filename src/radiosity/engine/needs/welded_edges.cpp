@@ -8,10 +8,12 @@
 #include <utility>
 
 namespace hemilux {
-namespace {
+std::size_t PositionHash::operator()(const Vec3& p) const {
+    const auto word = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }; // -0 is 0
+    return mix_bits(mix_bits(mix_bits(word(p.x)) + word(p.y)) + word(p.z));
+}
 
-/// Returns for each vertex the first one at its position.
-std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
+std::vector<std::uint32_t> first_in_place(std::span<const Vec3> vertices) {
     std::unordered_map<Vec3, std::uint32_t, PositionHash> first;
     first.reserve(vertices.size());
     std::vector<std::uint32_t> welded;
@@ -19,13 +21,6 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
     for (std::uint32_t v = 0; v < vertices.size(); ++v)
         welded.push_back(first.try_emplace(vertices[v], v).first->second);
     return welded;
-}
-
-} // namespace
-
-std::size_t PositionHash::operator()(const Vec3& p) const {
-    const auto word = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }; // -0 is 0
-    return mix_bits(mix_bits(mix_bits(word(p.x)) + word(p.y)) + word(p.z));
 }
 
 std::vector<Edge> edges_of(std::span<const FacetCorners> facets,
@@ -47,7 +42,7 @@ std::vector<Edge> welded_edges(const Scene& scene) {
     facets.reserve(scene.facets.size());
     for (const Facet& facet : scene.facets)
         facets.push_back(facet.vertex);
-    return edges_of(facets, weld(scene.vertices));
+    return edges_of(facets, first_in_place(scene.vertices));
 }
 
 EdgeCounts count_edges(const Scene& scene) {

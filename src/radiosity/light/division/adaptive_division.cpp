@@ -96,13 +96,14 @@ StopRule rough_stop(const AdaptiveDivision& options, std::size_t patches) {
 
 Solution rough_solution(const Mesh& mesh, const Tracer& tracer, const AdaptiveDivision& options,
                         Monitor& monitor, std::span<const double> target) {
-    const Needs needs = find_needs(mesh);
+    const Needs needs = options.keep_all ? everything_needed : find_needs(mesh);
     SolveOptions solve;
     solve.seed = options.seed;
     solve.threads = options.threads;
     const StopRule stop = rough_stop(options, mesh.patches().size());
     solve.stop = stop;
     solve.memory = options.memory;
+    solve.keep_all = options.keep_all;
     const SolverInput input{mesh, tracer, solve, monitor, needs, target};
     const auto solver = stored_transport_method.make(input);
     run(*solver, input, stop);

@@ -31,6 +31,7 @@ struct AdaptiveDivision {
     std::size_t max_patches = 1'000'000;
     std::uint64_t seed = 1;
     unsigned threads = 0;     ///< 0: one per core. The result does not depend on it.
+    bool keep_all = false;    ///< SolveOptions::keep_all, of the solutions of rounds
     std::uint64_t memory = 0; ///< bytes that a solution may use for its rays; 0: no limit
     /// The number of rays of all rounds after which none is begun; a solution of a round takes no
     /// more than are left.

@@ -5,7 +5,9 @@
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/needs/lit_facets.h"
+#include "radiosity/engine/needs/unused_vertices.h"
 #include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/engine/solving/left_out.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
@@ -517,14 +519,34 @@ TEST_CASE("Few triangles are traced without a tree, with the same hits") {
     }
 }
 
-TEST_CASE("Grey means equal channels of all materials in use") {
+TEST_CASE("Vertices that no facet uses are dropped") {
+    const Scene scene = grey_cube();
+    Scene untidy = scene;
+    untidy.vertices.insert(untidy.vertices.begin() + 3, {{9, 9, 9}, {8, 8, 8}});
+    untidy.vertices.push_back({7, 7, 7});
+    for (Facet& facet : untidy.facets)
+        for (std::uint32_t& v : facet.vertex)
+            v += v < 3 ? 0 : 2;
+    drop_unused_vertices(untidy);
+    CHECK(untidy.vertices == scene.vertices);
+    for (std::size_t f = 0; f < scene.facets.size(); ++f)
+        CHECK(untidy.facets[f].vertex == scene.facets[f].vertex);
+}
+
+TEST_CASE("A channel is solved unless another is the same in all materials in use, or it is dark") {
+    const auto channels = [](const Scene& scene) { return find_needs(Mesh(scene)).channel; };
+    using Channels = std::array<int, 3>;
+    constexpr int dark = Needs::dark;
     Scene scene = grey_cube();
-    CHECK_FALSE(find_needs(Mesh(scene)).colours);
+    CHECK(channels(scene) == Channels{0, 0, 0});
     scene.materials.push_back({"unused", {.1, .2, .3}, Vec3(0.0)});
-    CHECK_FALSE(find_needs(Mesh(scene)).colours);
+    CHECK(channels(scene) == Channels{0, 0, 0});
     scene.materials[0].reflectance.g = .51;
-    CHECK(find_needs(Mesh(scene)).colours);
-    scene = grey_cube();
+    CHECK(channels(scene) == Channels{0, 1, 0});
     scene.materials[1].emission.b = 2;
-    CHECK(find_needs(Mesh(scene)).colours);
+    CHECK(channels(scene) == Channels{0, 1, 2});
+    scene.materials[1].emission = {0, 1, 0};
+    CHECK(channels(scene) == Channels{dark, 1, dark});
+    add_point_emitter(scene, {.name = "bulb", .position = Vec3(.5), .intensity = {0, 0, 1}});
+    CHECK(channels(scene) == Channels{dark, 1, 2});
 }

@@ -1,0 +1,12 @@
+#pragma once
+// Drops the vertices of a scene that no facet uses, as files of several objects or of lines and
+// points have them. Each would be kept twice.
+
+namespace hemilux {
+
+struct Scene;
+
+/// Keeps the order of the vertices that remain.
+void drop_unused_vertices(Scene& scene);
+
+} // namespace hemilux
