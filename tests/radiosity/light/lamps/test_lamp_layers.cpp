@@ -9,6 +9,7 @@
 #include "parallel/workers.h"
 
 #include <cmath>
+#include <memory>
 
 using namespace hemilux;
 using test::Model;
@@ -55,8 +56,9 @@ double total_power(const LampLayers& lamps) {
 }
 
 LampPatches solve_layers(const Model& model, const Solver& solver) {
-    const auto* const rays = dynamic_cast<const Relighting*>(&solver);
-    REQUIRE(rays);
+    const auto* const keeps_rays = dynamic_cast<const KeepsRays*>(&solver);
+    REQUIRE(keeps_rays);
+    const std::unique_ptr<Relighting> rays = keeps_rays->relighting(Workers(2));
     LampPatches light{find_lamp_layers(model.mesh, LayersBy::lamp), {}};
     for (std::uint32_t k = 0; k < light.lamps.layers.size(); ++k)
         light.patches.push_back(
