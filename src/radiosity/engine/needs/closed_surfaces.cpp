@@ -60,7 +60,7 @@ class Pairs {
                 partners.push_back(nearest_in_front(*edge, first, last)->facet);
         std::vector<std::uint32_t> sorted = partners;
         std::ranges::sort(sorted);
-        if (std::ranges::adjacent_find(sorted) != sorted.end())
+        if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
             return false;
         auto partner = partners.begin();
         for (auto edge = first; edge != last; ++edge)
