@@ -219,8 +219,11 @@ Errors Gathering::gather_until_right(const std::string& what, const ReadError& r
             break; // the rounds before it are given out
         }
         judge_by(1);
-        // Few pixels may happen to hold much: more of them cost less than to gather again.
-        for (std::uint64_t more = 4; more <= 16 && !whole_ && errors.is_in_doubt(asked); more *= 4)
+        // Few pixels may happen to hold much: more of them cost less than to gather again, the more
+        // so by more rays.
+        const std::uint64_t many = round == 0 ? 16 : max_more;
+        for (std::uint64_t more = 4; more <= many && !whole_ && errors.is_in_doubt(asked);
+             more *= 4)
             judge_by(more);
         log_line(settings_.verbosity, Verbosity::verbose,
                  what + " by " + counted(errors.rays, "ray", "rays") +
