@@ -2,6 +2,7 @@
 
 #include "io/rendering/linear_fit.h"
 #include "io/rendering/slow_light_fit.h"
+#include "radiosity/engine/rays/shadow_rays.h"
 #include "radiosity/paper/rays/shot.h"
 
 #include <algorithm>
@@ -42,26 +43,11 @@ double weight_of(const GridPoint& here, const GridPoint* there, double most) {
     return 1 - glm::dot(way, way);
 }
 
-/// The points around another that something may hide from it.
-struct Doubtful {
-    struct Point {
-        Vec2 offset;
-        const GridPoint* there;
-        double weight;
-    };
-    std::vector<Point> points;
-    std::vector<Ray> rays;
-    std::vector<std::uint8_t> blocked; ///< by point: 1 or 0
-
-    void add(const Vec2& offset, const GridPoint& there, double weight, const GridPoint& here) {
-        points.push_back({offset, &there, weight});
-        rays.push_back(ray_between(here.at, there.at));
-    }
-    void trace(const Tracer& tracer) {
-        const std::vector<std::uint32_t> targets(rays.size(), none);
-        blocked.resize(rays.size());
-        tracer.occluded_stream(rays, targets, blocked);
-    }
+/// A point around another.
+struct Neighbour {
+    Vec2 offset;
+    std::size_t number; ///< of the point
+    double weight;
 };
 
 } // namespace
@@ -108,25 +94,28 @@ void SlowLightField::fit(int stride, const std::function<void()>& check, const W
             const double most = 1 / (min_steps * grid_.spacing(x, y));
             const std::size_t number = grid_.number_of(here);
             SlowLightFit fit(light_[number]);
-            Doubtful doubtful;
+            const auto add = [&](const Neighbour& neighbour) {
+                fit.add(neighbour.offset, light_[neighbour.number], neighbour.weight);
+            };
+            ShadowRays<Neighbour> doubtful; // something may hide them
             for (int dy = -reach_points; dy <= reach_points; ++dy)
                 for (int dx = -reach_points; dx <= reach_points; ++dx) {
                     const GridPoint* const there = grid_.point(x + stride * dx, y + stride * dy);
                     const double weight = ends(dx) * ends(dy) * weight_of(here, there, most);
                     if (!(weight > 0) || there == &here)
                         continue;
+                    const Neighbour neighbour{{dx, dy}, grid_.number_of(*there), weight};
                     if (is_near(here, *there))
-                        fit.add({dx, dy}, light_[grid_.number_of(*there)], weight);
+                        add(neighbour);
                     else
-                        doubtful.add({dx, dy}, *there, weight, here);
+                        doubtful.add(ray_between(here.at, there->at), none, neighbour);
                 }
-            doubtful.trace(tracer_);
-            for (std::size_t k = 0; k < doubtful.points.size(); ++k)
-                if (const auto& [offset, there, weight] = doubtful.points[k];
-                    doubtful.blocked[k] == 0)
-                    fit.add(offset, light_[grid_.number_of(*there)], weight);
+            doubtful.trace(tracer_, [&](const Neighbour& neighbour, double share) {
+                if (share > 0)
+                    add(neighbour);
                 else
                     at_barrier_[number] = 1;
+            });
             const auto& [light, slope] = fit.solve();
             fitted[number] = light;
             constexpr double enough = 10; // points that are wide apart know a slope better

@@ -29,20 +29,10 @@ class Pairs {
     }
 
     ConnectedSurfaces surfaces() {
-        std::vector<Surface> all;
-        std::vector<std::uint32_t> surface_of(soup_.facets.size());
-        for (std::uint32_t f = 0; f < soup_.facets.size(); ++f) {
-            const std::uint32_t first = sets_.find(f);
-            if (first == f) {
-                surface_of[f] = static_cast<std::uint32_t>(all.size());
-                all.emplace_back();
-            }
-            Surface& surface = all[surface_of[f] = surface_of[first]];
-            surface.facets.push_back(f);
-            surface.closed = surface.closed && !at_border_[f];
-            for (const std::uint32_t v : soup_.facets[f])
-                surface.box.include(soup_.vertices[v]);
-        }
+        std::vector<Surface> all = facets_of_sets(soup_, sets_);
+        for (Surface& surface : all)
+            surface.closed = std::ranges::none_of(
+                surface.facets, [&](std::uint32_t f) { return bool(at_border_[f]); });
         return {std::move(all), std::move(neighbours_)};
     }
 
@@ -122,6 +112,23 @@ double signed_solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 } // namespace
+
+std::vector<Surface> facets_of_sets(const FacetSoup& soup, DisjointSets& sets) {
+    std::vector<Surface> all;
+    std::vector<std::uint32_t> number(soup.facets.size()); // of a set, by its least facet
+    for (std::uint32_t f = 0; f < soup.facets.size(); ++f) {
+        const std::uint32_t first = sets.find(f);
+        if (first == f) {
+            number[f] = static_cast<std::uint32_t>(all.size());
+            all.emplace_back();
+        }
+        Surface& surface = all[number[first]];
+        surface.facets.push_back(f);
+        for (const std::uint32_t v : soup.facets[f])
+            surface.box.include(soup.vertices[v]);
+    }
+    return all;
+}
 
 ConnectedSurfaces find_surfaces(const FacetSoup& soup) { return Pairs(soup).surfaces(); }
 

@@ -21,6 +21,11 @@ struct Surface {
     bool closed = true;
 };
 
+class DisjointSets;
+
+/// Returns the facets of each set, in the order of their least ones.
+[[nodiscard]] std::vector<Surface> facets_of_sets(const FacetSoup& soup, DisjointSets& sets);
+
 struct ConnectedSurfaces {
     std::vector<Surface> all;
     std::vector<std::array<std::uint32_t, 2>> neighbours; ///< facets of one surface at one edge

@@ -17,6 +17,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 namespace hemilux {
@@ -58,6 +59,15 @@ bool contains(const Box& box, const Vec3& point) {
            glm::all(glm::lessThanEqual(point, box.high));
 }
 
+/// Returns the number of the surface that each facet belongs to.
+std::vector<std::uint32_t> numbers_by_facet(std::span<const Surface> surfaces, std::size_t facets) {
+    std::vector<std::uint32_t> number(facets);
+    for (std::uint32_t s = 0; s < surfaces.size(); ++s)
+        for (const std::uint32_t f : surfaces[s].facets)
+            number[f] = s;
+    return number;
+}
+
 /// The windings of all places that matter: sides with patches, and lights without extent.
 class Places {
   public:
@@ -65,15 +75,13 @@ class Places {
     /// (layered_mesh.h) they would have no common edges with their neighbours.
     explicit Places(const Mesh& mesh)
         : mesh_(mesh), corners_(corners_of(mesh.scene())), soup_{mesh.vertices(), corners_},
-          surface_of_(corners_.size()), touches_(corners_.size()) {
+          touches_(corners_.size()) {
         ConnectedSurfaces found = find_surfaces(soup_);
         surfaces_ = std::move(found.all);
         neighbours_ = std::move(found.neighbours);
         for (const FacetCorners& corners : corners_)
             shapes_.push_back(polygon_of(mesh.vertices(), corners));
-        for (std::uint32_t s = 0; s < surfaces_.size(); ++s)
-            for (const std::uint32_t f : surfaces_[s].facets)
-                surface_of_[f] = s;
+        surface_of_ = numbers_by_facet(surfaces_, corners_.size());
     }
 
     /// Returns false if there is one space only, as far as can be found in time.
@@ -214,17 +222,8 @@ class Places {
         for (const auto& [f, g] : neighbours_)
             if (!touches_[f] && !touches_[g])
                 sets.join(f, g);
-        piece_of_.resize(corners_.size());
-        for (std::uint32_t f = 0; f < corners_.size(); ++f) {
-            const std::uint32_t first = sets.find(f);
-            if (first == f) {
-                piece_of_[f] = static_cast<std::uint32_t>(pieces_.size());
-                pieces_.emplace_back();
-            }
-            Surface& piece = pieces_[piece_of_[f] = piece_of_[first]];
-            piece.facets.push_back(f);
-            piece.box.include(box_of(shapes_[f].corner));
-        }
+        pieces_ = facets_of_sets(soup_, sets);
+        piece_of_ = numbers_by_facet(pieces_, corners_.size());
     }
 
     /// Finds the windings of the closed surfaces at each piece of others, and in front of
