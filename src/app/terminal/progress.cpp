@@ -36,17 +36,23 @@ ShareDone share_of(const StopRule& stop, const Method& method) {
     };
 }
 
-std::string progress_line(double share, const ProgressState& state, std::size_t width) {
+std::string share_bar(double share) {
     const auto full = static_cast<std::size_t>(share * bar_cells);
-    std::string line = "[" + std::string(full, '#') + std::string(bar_cells - full, '.') + "]" +
-                       formatted(" %3.0f %%  ", std::floor(100 * share)) + state.topic +
-                       (state.topic.empty() ? "" : ", ") + state.phase;
+    return "[" + std::string(full, '#') + std::string(bar_cells - full, '.') + "]" +
+           formatted(" %3.0f %%  ", std::floor(100 * share));
+}
+
+std::string time_left(double share, double seconds) {
+    constexpr double least = .02; // the first few per cent say little about the rest
+    return share > least ? ", " + duration(seconds * (1 - share) / share) + " left" : "";
+}
+
+std::string progress_line(double share, const ProgressState& state, std::size_t width) {
+    std::string line =
+        share_bar(share) + state.topic + (state.topic.empty() ? "" : ", ") + state.phase;
     if (state.seconds > 0)
         line += "  " + short_count(static_cast<double>(state.rays) / state.seconds) + " rays/s";
-    line += "  " + duration(state.seconds);
-    // The first few per cent say little about the rest.
-    if (share > 0.02)
-        line += ", " + duration(state.seconds * (1 - share) / share) + " left";
+    line += "  " + duration(state.seconds) + time_left(share, state.seconds);
     if (std::isfinite(state.estimated_error))
         line += "  error " + percent(state.estimated_error);
     return line.substr(0, width);

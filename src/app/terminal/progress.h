@@ -37,6 +37,12 @@ using ShareDone = std::function<double(const ProgressState&)>;
 /// Returns the share of one run that is done.
 [[nodiscard]] ShareDone share_of(const StopRule& stop, const Method& method);
 
+/// Returns the bar of a share of work, with its per cent.
+[[nodiscard]] std::string share_bar(double share);
+/// Returns how long the rest takes where this share took these seconds, as ", 5 s left"; empty
+/// while too little is done to tell.
+[[nodiscard]] std::string time_left(double share, double seconds);
+
 /// Returns the bar as text of at most `width` columns.
 [[nodiscard]] std::string progress_line(double share, const ProgressState& state,
                                         std::size_t width);

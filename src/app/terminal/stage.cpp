@@ -1,6 +1,7 @@
 #include "app/terminal/stage.h"
 
 #include "app/settings/text.h"
+#include "app/terminal/progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,15 +19,8 @@ std::string stage_line(const std::string& name, double seconds, std::size_t widt
 }
 
 std::string stage_line(const std::string& name, double share, double seconds, std::size_t width) {
-    constexpr std::size_t cells = 24;
-    const auto full = static_cast<std::size_t>(cells * share);
-    std::string line = "[" + std::string(full, '#') + std::string(cells - full, '.') + "]" +
-                       formatted(" %3.0f %%  ", std::floor(100 * share)) + name + "  " +
-                       duration(seconds);
-    // The first few per cent say little about the rest.
-    if (share > .02 && seconds > 0)
-        line += ", " + duration(seconds * (1 - share) / share) + " left";
-    return line.substr(0, width);
+    const std::string left = seconds > 0 ? time_left(share, seconds) : "";
+    return (share_bar(share) + name + "  " + duration(seconds) + left).substr(0, width);
 }
 
 Stage::Stage(std::string name, Verbosity verbosity)
