@@ -21,11 +21,11 @@ constexpr std::array<std::uint32_t, 256> crc_table = [] {
     return table;
 }();
 
-std::uint32_t checksum_of(const std::vector<std::string_view>& parts) {
-    std::uint32_t crc = 0xffffffff;
-    for (const std::string_view part : parts)
-        for (const char c : part)
-            crc = crc_table[(crc ^ static_cast<unsigned char>(c)) & 0xff] ^ (crc >> 8);
+/// Returns the checksum of more bytes, where `crc` is that of those before.
+std::uint32_t checksum_of(std::string_view bytes, std::uint32_t crc) {
+    crc = ~crc;
+    for (const char c : bytes)
+        crc = crc_table[(crc ^ static_cast<unsigned char>(c)) & 0xff] ^ (crc >> 8);
     return ~crc;
 }
 
@@ -56,10 +56,12 @@ void StoredZip::write(std::string_view bytes) {
     written_ += bytes.size();
 }
 
-void StoredZip::add(const std::string& name, const std::vector<std::string_view>& parts) {
-    Entry entry{name, checksum_of(parts), 0, written_};
-    for (const std::string_view part : parts)
+void StoredZip::add(const std::string& name, const std::function<void(const Sink& sink)>& give) {
+    Entry entry{name, 0, 0, written_};
+    give([&entry](std::string_view part) {
+        entry.checksum = checksum_of(part, entry.checksum);
         entry.size += part.size();
+    });
     const bool large = entry.size >= too_large;
     std::string extra;
     if (large) {
@@ -71,8 +73,7 @@ void StoredZip::add(const std::string& name, const std::vector<std::string_view>
     std::string header = "PK\x03\x04";
     append_common(header, entry.checksum, entry.size, name.size(), extra.size(), large);
     write(header + name + extra);
-    for (const std::string_view part : parts)
-        write(part);
+    give([this](std::string_view part) { write(part); });
     entries_.push_back(entry);
 }
 

@@ -4,7 +4,9 @@
 
 #include "io/files/atomic_file.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,8 +18,14 @@ class StoredZip {
     /// Throws OutputError, as all functions do.
     explicit StoredZip(const std::string& path) : file_(path) {}
 
+    using Sink = std::function<void(std::string_view part)>;
+    /// Adds a file of the parts that `give` passes to a sink. It is called twice, as the checksum
+    /// comes before the parts, and gives the same both times.
+    void add(const std::string& name, const std::function<void(const Sink& sink)>& give);
     /// Adds a file of these parts, one after the other.
-    void add(const std::string& name, const std::vector<std::string_view>& parts);
+    void add(const std::string& name, const std::vector<std::string_view>& parts) {
+        add(name, [&](const Sink& sink) { std::ranges::for_each(parts, sink); });
+    }
     /// Writes the directory and gives the archive its name; nothing can be added afterwards.
     void commit();
 

@@ -83,6 +83,25 @@ void add_array(StoredZip& zip, const std::string& name, const std::string& type,
     zip.add(name + ".npy", {npy_header(type, std::to_string(values.size()) + ","), bytes});
 }
 
+/// Adds an array of value_of(column, F, standard error) of all entries, row after row.
+template <class ValueOf>
+void add_entries(StoredZip& zip, const std::string& name, const std::string& type,
+                 std::uint64_t entries, const FactorTable& table, const ValueOf& value_of) {
+    zip.add(name + ".npy", [&](const StoredZip::Sink& sink) {
+        sink(npy_header(type, std::to_string(entries) + ","));
+        std::string bytes;
+        for (std::uint32_t i = 0, rows = row_count(table); i < rows; ++i) {
+            check_interrupt(table);
+            bytes.clear();
+            for_row(table, i,
+                    [&](std::uint32_t, std::uint32_t column, double factor, double error) {
+                        append_number(bytes, value_of(column, factor, error));
+                    });
+            sink(bytes);
+        }
+    });
+}
+
 /// Adds texts as an array of strings of one length, in UTF-8.
 void add_texts(StoredZip& zip, const std::string& name, const std::vector<std::string>& texts) {
     std::size_t length = 1;
@@ -141,37 +160,29 @@ void write_factor_pairs(const std::string& path, const FactorTable& table) {
 
 void write_factor_npz(const std::string& path, const FactorTable& table, const Provenance& from) {
     std::vector<std::uint64_t> begin(1, 0);
-    std::vector<std::uint32_t> column;
-    std::vector<double> factor, error;
-    const std::size_t most = entries_of(table);
-    column.reserve(most);
-    factor.reserve(most);
-    error.reserve(most);
     for (std::uint32_t i = 0, rows = row_count(table); i < rows; ++i) {
-        for_row(table, i, [&](std::uint32_t, std::uint32_t j, double f, double e) {
-            column.push_back(j);
-            factor.push_back(f);
-            error.push_back(e);
-        });
-        begin.push_back(column.size());
+        std::uint64_t end = begin.back();
+        for_row(table, i, [&](std::uint32_t, std::uint32_t, double, double) { ++end; });
+        begin.push_back(end);
     }
-    check_interrupt(table);
+    const std::uint64_t entries = begin.back();
     StoredZip zip(path);
     constexpr std::uint64_t largest = 0x7fffffff;
-    if (column.size() <= largest) { // SciPy wants both of one type
-        add_array(zip, "indices", "<i4", column);
-        std::vector<std::uint32_t> short_begin;
-        for (const std::uint64_t place : begin)
-            short_begin.push_back(static_cast<std::uint32_t>(place));
-        add_array(zip, "indptr", "<i4", short_begin);
+    if (entries <= largest) { // SciPy wants both of one type
+        add_entries(zip, "indices", "<i4", entries, table,
+                    [](std::uint32_t column, double, double) { return column; });
+        add_array(zip, "indptr", "<i4", std::vector<std::uint32_t>(begin.begin(), begin.end()));
     } else {
-        add_array(zip, "indices", "<i8", std::vector<std::uint64_t>(column.begin(), column.end()));
+        add_entries(zip, "indices", "<i8", entries, table,
+                    [](std::uint32_t column, double, double) { return std::uint64_t{column}; });
         add_array(zip, "indptr", "<i8", begin);
     }
     add_text(zip, "format", "csr");
     add_array(zip, "shape", "<i8", std::array<std::uint64_t, 2>{table.rows(), table.size()});
-    add_array(zip, "data", "<f8", factor);
-    add_array(zip, "standard_error", "<f8", error);
+    add_entries(zip, "data", "<f8", entries, table,
+                [](std::uint32_t, double factor, double) { return factor; });
+    add_entries(zip, "standard_error", "<f8", entries, table,
+                [](std::uint32_t, double, double error) { return error; });
     std::vector<double> area;
     std::vector<std::string> names;
     for (const FactorSurface& surface : table.surfaces) {
