@@ -194,6 +194,16 @@ void add_random_options(Command command, SolveOptions& options) {
                         "0: one per core; the result does not depend on it [0]");
 }
 
+void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
+    command.add_text("--checkpoint", "FILE", checkpoint.path,
+                     "keep what was computed in a file, meanwhile and at the end");
+    add_seconds(command, "--every", checkpoint.every, non_negative,
+                "of the time between two checkpoints; 0: as often as there is more [60]");
+    command.add_text(
+        "--resume", "FILE", checkpoint.resumed,
+        "go on from a checkpoint: the same scene and method, the same bytes in the end");
+}
+
 void add_camera_options(Command command, ViewSettings& view) {
     add_parsed(
         command, "--camera", "EX,EY,EZ,TX,TY,TZ[,FOV[,UX,UY,UZ]]",

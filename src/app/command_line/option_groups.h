@@ -30,6 +30,8 @@ void add_own_options(Command command, std::span<const Method* const> methods,
                      SolveOptions& options);
 /// Adds --seed and --threads.
 void add_random_options(Command command, SolveOptions& options);
+/// Adds --checkpoint, --every and --resume.
+void add_checkpoint_options(Command command, CheckpointSettings& checkpoint);
 /// Adds --camera and --size.
 void add_camera_options(Command command, ViewSettings& view);
 /// Adds --exposure and --tone.

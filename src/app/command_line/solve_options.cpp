@@ -180,16 +180,6 @@ void add_error_map_option(Command command, SolveSettings& settings) {
              [&settings](const std::string& path) { settings.error_map = path; });
 }
 
-void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
-    command.add_text("--checkpoint", "FILE", checkpoint.path,
-                     "keep what was computed in a file, after steps and at the end");
-    add_seconds(command, "--every", checkpoint.every, non_negative,
-                "of the time between two checkpoints; 0: after each step [60]");
-    command.add_text(
-        "--resume", "FILE", checkpoint.resumed,
-        "go on from a checkpoint: the same scene and method, the same bytes in the end");
-}
-
 void add_comparison_options(Command command, SolveSettings& settings) {
     command.add_text("--reference", "FILE.csv", settings.reference,
                      "patch table of the same patches: report the true error");

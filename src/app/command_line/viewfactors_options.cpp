@@ -18,6 +18,8 @@ constexpr const char* viewfactors_examples = R"(Examples:
   hemilux viewfactors room.obj --by group --points seats.txt -o factors.csv --legend rows.csv
   hemilux viewfactors city.stl --suns june.txt --sunlit june.csv
   hemilux viewfactors city.stl --of sky -o sky.vtu --legend sky.csv
+  hemilux viewfactors city.stl -o city.npz --checkpoint city.saved
+  hemilux viewfactors city.stl -o city.npz --checkpoint city.saved --resume city.saved
 )";
 
 std::optional<std::uint32_t> rays_from(const std::string& text) {
@@ -95,6 +97,7 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
     method.add_text("--suns", "FILE", settings.suns,
                     "more suns for --sunlit: rows x,y,z of such directions");
     add_random_options(method, settings.options);
+    add_checkpoint_options(command.under("Checkpoints"), settings.checkpoint);
     const Command output = command.under(output_group);
     add_parsed(
         output, "-o,--output", "FILE",

@@ -2,6 +2,7 @@
 
 #include "app/commands/commands.h"
 #include "app/factors/factor_audit.h"
+#include "app/factors/factor_checkpoint.h"
 #include "app/factors/factor_points.h"
 #include "app/factors/factor_run.h"
 #include "app/factors/factor_surfaces.h"
@@ -212,7 +213,9 @@ RunFiles files_of(const ViewFactorSettings& settings) {
             outputs.push_back(path);
     if (settings.outputs.empty() && settings.sunlit.empty())
         throw UsageError("--output: name a file to write, or one of --sunlit");
-    return check_files(outputs, settings.scene.path);
+    RunFiles files = check_files(outputs, settings.scene.path);
+    check_checkpoint_files(settings, files);
+    return files;
 }
 
 /// Writes all files, and finds the sunlit fractions as they are written. Files that have these,
@@ -257,7 +260,9 @@ WriteReport write_found(const ViewFactorSettings& settings, const FactorScene& s
 } // namespace
 
 int viewfactors(const ViewFactorSettings& settings) {
+    check_checkpoint_options(settings);
     const RunFiles files = files_of(settings);
+    FactorCheckpoint checkpoint(settings);
     const std::vector<NamedPoint> points = points_of(settings, files);
     const std::vector<Vec3> suns = suns_of(settings, files);
     Monitor monitor;
@@ -271,15 +276,17 @@ int viewfactors(const ViewFactorSettings& settings) {
     check_sky(settings);
     const WideBvh tree(loaded.mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted.own().wished);
-    const FactorScene scene{
+    FactorScene scene{
         loaded.mesh,
         tree,
         surfaces,
         loaded.up,
         memory_guard(loaded.need, settings.scene.memory, settings.scene.path, advice_for_memory),
         bands ? &*bands : nullptr};
+    checkpoint.attach(scene);
     const FoundFactors results = compute(settings, scene, points, monitor);
-    const WriteReport report = write_found(settings, scene, results, suns, monitor);
+    WriteReport report = write_found(settings, scene, results, suns, monitor);
+    report.add(checkpoint.report());
     if (!results.has_factors && wants_factors(settings) && report.failed.empty()) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();

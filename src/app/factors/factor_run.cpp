@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -75,7 +76,9 @@ ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScen
                                       .up = scene.up,
                                       .bands = scene.bands,
                                       .before = passes_before(settings),
-                                      .ask = scene.ask};
+                                      .ask = scene.ask,
+                                      .load = scene.load,
+                                      .keep = scene.keep};
         return view_factors(scene.mesh, scene.tree, scene.surfaces.row_of,
                             scene.surfaces.rows.size(), options, workers, monitor);
     };
@@ -97,7 +100,7 @@ ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScen
         if (views.is_void)
             return {};
         ViewFactors factors =
-            sum_over_rows(list, scene.surfaces.row_of, scene.surfaces.rows.size());
+            sum_over_rows(std::move(list), scene.surfaces.row_of, scene.surfaces.rows.size());
         factors.work.rows_left = views.rows_left;
         factors.work.rays = views.rays;
         return factors;

@@ -22,6 +22,8 @@ struct FactorScene {
     int up;                                     ///< axis that points to the sky
     std::function<void(double bytes)> ask = {}; ///< ExchangeOptions::ask
     const SkyBands* bands = nullptr;            ///< parts of the sky, if they are asked for
+    std::function<void(std::span<MeasuredRow>)> load = {}; ///< ExchangeOptions::load, keep
+    std::function<void(std::span<const MeasuredRow>, bool is_last)> keep = {};
 };
 
 /// Returns the parts of the sky that the settings ask for, if any.

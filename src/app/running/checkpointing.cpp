@@ -1,5 +1,6 @@
 #include "app/running/checkpointing.h"
 
+#include "app/running/same_run.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/method_options.h"
 #include "app/settings/numbers.h"
@@ -13,22 +14,20 @@ namespace hemilux {
 
 namespace {
 
-using Options = std::vector<std::pair<std::string, std::string>>;
-
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 
 /// Returns all options but those that decide when to stop, where to write and how many threads
 /// work. What changes the scene is in its hash.
-Options options_of(const SolveSettings& settings) {
+CheckpointOptions options_of(const SolveSettings& settings) {
     const SolveOptions& o = settings.options;
-    Options options = {{"hemilux", HEMILUX_VERSION},
-                       {"--method", std::string(settings.method->name)},
-                       {"--rays", shortest_text(o.rays)},
-                       {"--depth", std::to_string(o.depth)},
-                       {"--threshold", shortest_text(o.threshold)},
-                       {"--seed", std::to_string(o.seed)},
-                       {"--literal", yes_or_no(o.literal)},
-                       {"--keep-all", yes_or_no(o.keep_all)}};
+    CheckpointOptions options = {{"hemilux", HEMILUX_VERSION},
+                                 {"--method", std::string(settings.method->name)},
+                                 {"--rays", shortest_text(o.rays)},
+                                 {"--depth", std::to_string(o.depth)},
+                                 {"--threshold", shortest_text(o.threshold)},
+                                 {"--seed", std::to_string(o.seed)},
+                                 {"--literal", yes_or_no(o.literal)},
+                                 {"--keep-all", yes_or_no(o.keep_all)}};
     for (const MethodOption& option : settings.method->own_options())
         if (option.resumable)
             options.emplace_back(option.name, option.get(o));
@@ -45,20 +44,6 @@ std::string default_of(const std::string& name) {
             if (own.name == name)
                 return own.get({});
     return {};
-}
-
-void check_options(const Options& found, const Options& wanted, const std::string& file) {
-    const auto value_of = [](const Options& options, const std::string& name) {
-        const auto same = std::ranges::find(options, name, &Options::value_type::first);
-        return same == options.end() ? default_of(name) : same->second;
-    };
-    for (const auto& [name, value] : wanted)
-        if (const std::string there = value_of(found, name); there != value)
-            throw InputError(file, "is a checkpoint of another run: expected " + name + " " +
-                                       value + ", it has " + (there.empty() ? "nothing" : there));
-    for (const auto& [name, value] : found)
-        if (value_of(wanted, name) != value)
-            throw InputError(file, "is a checkpoint of another run, with options unknown here");
 }
 
 } // namespace
@@ -89,18 +74,14 @@ std::optional<Checkpoint> read_resumed(const SolveSettings& settings) {
     if (path.empty())
         return std::nullopt;
     Checkpoint checkpoint = read_checkpoint(path);
-    check_options(checkpoint.options, options_of(settings), path);
+    check_same_run(checkpoint.options, options_of(settings), path, default_of);
     return checkpoint;
 }
 
 Before resume(const Checkpoint& checkpoint, const SolveSettings& settings, const Mesh& mesh,
               Solver& solver) {
     const std::string& path = settings.checkpoint.resumed;
-    if (checkpoint.scene != scene_hash(mesh))
-        throw InputError(path, "is a checkpoint of another scene; expected '" +
-                                   settings.scene.path +
-                                   "' as it is now, with the same --max-edge, --sides, "
-                                   "--emission and --reflectance");
+    check_same_scene(checkpoint.scene, scene_hash(mesh), path, settings.scene.path);
     const double density_now = solver.solution().seconds_density;
     try {
         StateReader state(checkpoint.state);

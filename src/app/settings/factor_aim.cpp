@@ -7,6 +7,22 @@
 
 namespace hemilux {
 
+std::string text_of(const FactorAim& aim) {
+    switch (aim.of) {
+    case FactorAim::Of::rows:
+        return "rows";
+    case FactorAim::Of::largest:
+        return "largest";
+    case FactorAim::Of::pair:
+        return "pair:" + aim.from + "," + aim.to;
+    case FactorAim::Of::sky:
+        return "sky";
+    case FactorAim::Of::above:
+        break;
+    }
+    return "above:" + shortest_text(aim.least);
+}
+
 std::optional<FactorAim> parse_factor_aim(std::string_view text) {
     constexpr std::string_view above = "above:", pair = "pair:";
     FactorAim aim;

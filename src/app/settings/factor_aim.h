@@ -13,6 +13,9 @@ namespace hemilux {
 /// Reads "above:F", "rows", "largest", "pair:A,B" or "sky"; empty for any other text.
 [[nodiscard]] std::optional<FactorAim> parse_factor_aim(std::string_view text);
 
+/// Returns what parse_factor_aim() reads.
+[[nodiscard]] std::string text_of(const FactorAim& aim);
+
 /// Reads a number of bands from 1 to 90, or "tregenza"; empty for any other text.
 [[nodiscard]] std::optional<SkyDivision> parse_sky_division(std::string_view text);
 

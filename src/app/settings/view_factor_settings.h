@@ -36,6 +36,7 @@ struct ViewFactorSettings {
     std::uint32_t rays = 1024;        ///< from each patch, to find who sees whom; a power of two
     bool sky = false, ground = false; ///< they are columns
     std::optional<double> seconds;    ///< after which factors are as exact as they are then
+    CheckpointSettings checkpoint;
     std::optional<SkyDivision> sky_bands;
     std::optional<int> up;   ///< axis; empty: 1 for glTF, else 2
     std::string points;      ///< file of further rows; empty: none

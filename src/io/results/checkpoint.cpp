@@ -60,7 +60,8 @@ StepRow row_from(StateReader& in) {
     return row;
 }
 
-std::string content_of(const Checkpoint& checkpoint) {
+/// Returns what comes before the state in the content, which has the state at its end.
+std::string content_before_state(const Checkpoint& checkpoint) {
     StateWriter out;
     out.add(std::uint64_t{checkpoint.options.size()});
     for (const auto& [name, value] : checkpoint.options) {
@@ -72,7 +73,7 @@ std::string content_of(const Checkpoint& checkpoint) {
     out.add(std::uint64_t{checkpoint.rows.size()});
     for (const StepRow& row : checkpoint.rows)
         add_row(out, row);
-    out.add(std::string_view(checkpoint.state));
+    out.add(std::uint64_t{checkpoint.state.size()});
     return std::move(out).bytes();
 }
 
@@ -171,24 +172,24 @@ std::uint64_t scene_hash(const Mesh& mesh) {
 
 namespace {
 
-/// Returns what stands before the content, and behind it.
-std::pair<std::string, std::string> seal_of(std::string_view content) {
+/// Returns what stands before the content, which is two texts, and behind it.
+std::pair<std::string, std::string> seal_of(std::string_view first, std::string_view second) {
     StateWriter length, sum;
-    length.add(std::uint64_t{content.size()});
-    std::string first = std::string(magic) + std::string(format) + "\n" + length.bytes();
-    sum.add(checksum_of(content, checksum_of(first)));
-    return {std::move(first), std::move(sum).bytes()};
+    length.add(std::uint64_t{first.size() + second.size()});
+    std::string head = std::string(magic) + std::string(format) + "\n" + length.bytes();
+    sum.add(checksum_of(second, checksum_of(first, checksum_of(head))));
+    return {std::move(head), std::move(sum).bytes()};
 }
 
 } // namespace
 
 std::string sealed_checkpoint(std::string_view content) {
-    const auto [before, behind] = seal_of(content);
+    const auto [before, behind] = seal_of(content, {});
     return before + std::string(content) + behind;
 }
 
 std::string to_bytes(const Checkpoint& checkpoint) {
-    return sealed_checkpoint(content_of(checkpoint));
+    return sealed_checkpoint(content_before_state(checkpoint) + checkpoint.state);
 }
 
 Checkpoint checkpoint_from(std::string_view bytes, const std::string& file) {
@@ -210,12 +211,11 @@ Checkpoint checkpoint_from(std::string_view bytes, const std::string& file) {
 }
 
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
-    const std::string content = content_of(checkpoint);
-    const auto [before, behind] = seal_of(content);
+    const std::string first = content_before_state(checkpoint);
+    const auto [before, behind] = seal_of(first, checkpoint.state);
     AtomicFile file(path);
-    for (const std::string_view part :
-         {std::string_view(before), std::string_view(content), std::string_view(behind)})
-        file.write(part);
+    for (const std::string* const part : {&before, &first, &checkpoint.state, &behind})
+        file.write(*part);
     file.commit(AtomicFile::Durable::yes);
 }
 

@@ -428,6 +428,47 @@ TEST_CASE("viewfactors writes what is known after Ctrl-C") {
     CHECK_FALSE(place.has("s.csv"));
 }
 
+TEST_CASE("viewfactors goes on from a checkpoint to the bytes of a run that was not ended") {
+    const Workplace place;
+    place.write("city.obj", city(8));
+    const std::string run = "viewfactors city.obj --error .3% --sky ";
+    REQUIRE(place.hemilux(run + "-o whole.csv --legend whole_rows.csv").code == 0);
+    const std::string kept = run + "-o f.csv --legend l.csv --checkpoint saved --every 0";
+    test::Running killed(place, kept, place.path("stderr.txt").c_str());
+    REQUIRE(test::wait_until([&] { return place.has("saved"); }));
+    killed.send(SIGKILL);
+    (void)killed.wait();
+    const auto outcome = place.hemilux(kept + " --resume saved -t 2");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("resumed: ") && Contains("of 384 patches were measured in"));
+    CHECK(place.read("f.csv") == place.read("whole.csv"));
+    CHECK(place.read("l.csv") == place.read("whole_rows.csv"));
+    // One that is complete gives other rows, too.
+    const auto groups = place.hemilux(run + "--by group -o g.csv --resume saved");
+    REQUIRE(groups.code == 0);
+    CHECK_THAT(groups.err, Contains("resumed: 384 of 384 patches"));
+    REQUIRE(place.hemilux(run + "--by group -o again.csv").code == 0);
+    CHECK(place.read("g.csv") == place.read("again.csv"));
+
+    const auto fails = [&](int code, const std::string& arguments, const std::string& message) {
+        test::check_fails(place, code, "viewfactors " + arguments, message);
+    };
+    fails(2, "city.obj --error .3% --seed 2 -o a.csv --resume saved",
+          "expected --seed 2, it has 1");
+    fails(2, "city.obj -o a.csv --resume saved", "expected --error 0.01, it has 0.003");
+    place.write("other.obj", city(7));
+    fails(2, "other.obj --error .3% -o a.csv --resume saved", "of another scene");
+    fails(2, "city.obj -o a.csv --resume none", "none");
+    fails(1, "city.obj --of sky --legend a.csv -o svf.inp.a --checkpoint s",
+          "--of sky keeps no rows");
+    fails(1, "city.obj -o a.csv --every 1m", "--checkpoint");
+    fails(1, "city.obj -o a.csv --checkpoint ./a.csv", "named twice");
+    fails(3, "city.obj -o a.csv --checkpoint nowhere/saved", "nowhere");
+    place.write("saved", place.read("saved").substr(0, 999));
+    fails(2, "city.obj --error .3% -o a.csv --resume saved", "damaged checkpoint");
+    CHECK_FALSE(place.has("a.csv"));
+}
+
 TEST_CASE("viewfactors says what is wrong with what it is asked") {
     const Workplace place;
     place.write("box.obj", open_box);

@@ -1,5 +1,9 @@
-#include "radiosity/engine/view_factors/facing_patches.h"
+#include "radiosity/engine/pair_factors/facing_patches.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <numeric>
 
 namespace hemilux {
@@ -7,32 +11,79 @@ namespace {
 
 constexpr std::uint32_t patches_of_leaf = 16;
 
+/// Returns twice the axis along which a vector is longest, and one more where it points down it.
+int main_direction(const Vec3& vector) {
+    int axis = 0;
+    for (int k = 1; k < 3; ++k)
+        if (std::abs(vector[k]) > std::abs(vector[axis]))
+            axis = k;
+    return 2 * axis + (vector[axis] < 0 ? 1 : 0);
+}
+
 } // namespace
 
 FacingPatches::FacingPatches(std::span<const FacePlane> faces)
     : faces_(faces), order_(faces.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
-    if (!faces.empty())
-        divide(0, static_cast<std::uint32_t>(faces.size()));
+    const auto way = [&](std::uint32_t i) { return main_direction(faces[i].plane.normal); };
+    std::ranges::stable_sort(order_, {}, way);
+    for (std::size_t begin = 0; begin < order_.size();) {
+        std::size_t end = begin + 1;
+        while (end < order_.size() && way(order_[end]) == way(order_[begin]))
+            ++end;
+        divide(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
+        begin = end;
+    }
+}
+
+FacingPatches::Node FacingPatches::group_of(std::uint32_t begin, std::uint32_t end) const {
+    Node node{};
+    for (std::uint32_t at = begin; at < end; ++at) {
+        const FacePlane& face = faces_[order_[at]];
+        node.box.include(box_of(face.shape.corner));
+        node.normal += face.plane.normal;
+        node.max_area = std::max(node.max_area, face.area);
+        node.max_radius = std::max(node.max_radius, face.radius);
+        node.max_index = std::max(node.max_index, order_[at]);
+    }
+    node.normal = glm::normalize(node.normal); // not 0: all face along one axis
+    for (std::uint32_t at = begin; at < end; ++at)
+        node.turn =
+            std::max(node.turn, glm::distance(faces_[order_[at]].plane.normal, node.normal));
+    return node;
+}
+
+double FacingPatches::bound(const Node& node, const FacePlane& face) {
+    const Vec3 half = .5 * node.box.extent(), d = node.box.centre() - face.centre;
+    const double reach = node.max_radius + face.radius;
+    const double of_group =
+        glm::dot(d, face.plane.normal) + glm::dot(half, glm::abs(face.plane.normal));
+    const double of_face = -glm::dot(d, node.normal) + glm::dot(half, glm::abs(node.normal)) +
+                           node.turn * (glm::length(d) + glm::length(half));
+    if (of_group + reach <= 0 || of_face + reach <= 0)
+        return 0;
+    const Vec3 between = glm::max(glm::abs(d) - half, Vec3(0.0));
+    const double square = glm::dot(between, between);
+    const double height_of_group = std::max(of_group, 0.0) + node.max_radius,
+                 height_of_face = std::max(of_face, 0.0) + face.radius;
+    const double kernel =
+        square > 0 ? std::min(height_of_group * height_of_face / (square * square), 1 / square)
+                   : std::numeric_limits<double>::infinity();
+    return std::max(face.area, node.max_area) * kernel / std::numbers::pi;
 }
 
 /// Adds the group of a part of the order, divided at the median along the longest side.
 void FacingPatches::divide(std::uint32_t begin, std::uint32_t end) {
-    Node node{.box = {}, .max_area = 0, .max_index = 0, .begin = begin, .end = begin, .skip = 0};
-    Box centres;
-    for (std::uint32_t at = begin; at < end; ++at) {
-        const FacePlane& face = faces_[order_[at]];
-        node.box.include(box_of(face.shape.corner));
-        node.max_area = std::max(node.max_area, face.area);
-        node.max_index = std::max(node.max_index, order_[at]);
-        centres.include(face.centre);
-    }
+    Node node = group_of(begin, end);
     const std::size_t own = nodes_.size();
     const bool is_leaf = end - begin <= patches_of_leaf;
-    if (is_leaf)
-        node.end = end;
+    node.begin = begin;
+    node.end = is_leaf ? end : begin;
     nodes_.push_back(node);
     if (!is_leaf) {
+        Box centres;
+        for (std::uint32_t at = begin; at < end; ++at)
+            centres.include(faces_[order_[at]].centre);
         const Vec3 extent = centres.extent();
         int axis = extent.x >= extent.y ? 0 : 1;
         if (extent.z > extent[axis])

@@ -1,14 +1,12 @@
 #pragma once
 // Which patches face a patch and are large and near enough to count, without a look at each: a tree
-// of groups is asked, which boxes bound.
+// of groups is asked, each of patches that lie together and face about the same way.
 
 #include "geometry/box.h"
 #include "radiosity/engine/pair_factors/free_exchange.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <span>
 #include <vector>
 
@@ -19,16 +17,15 @@ class FacingPatches {
     /// The faces, by patch, must outlive this.
     explicit FacingPatches(std::span<const FacePlane> faces);
 
-    /// Calls use(j) for patches of higher index than i, in no order. Among them are all that rise
-    /// above the plane of i and whose rough_exchange() is more than `share` of the smaller of the
-    /// two areas.
+    /// Calls use(j) for patches of higher index than i, in no order. Among them are all that do not
+    /// turn away from i and whose rough_exchange() is more than `share` of the smaller of the two
+    /// areas.
     template <class Use>
     void for_each(std::uint32_t i, double share, const Use& use) const {
         const FacePlane& face = faces_[i];
         for (std::size_t k = 0; k < nodes_.size();) {
             const Node& node = nodes_[k];
-            if (node.max_index <= i || is_below(node.box, face.plane) ||
-                is_too_far(node, face, share)) {
+            if (node.max_index <= i || !(bound(node, face) > share)) {
                 k = node.skip;
                 continue;
             }
@@ -42,21 +39,18 @@ class FacingPatches {
   private:
     /// A group in preorder. Inner ones have no patches of their own.
     struct Node {
-        Box box; ///< of corners
-        double max_area;
+        Box box;     ///< of corners
+        Vec3 normal; ///< about that of all
+        double turn; ///< the longest difference of a normal from it [-]
+        double max_area, max_radius;
         std::uint32_t max_index, begin, end, skip; ///< skip: the node after all below
     };
     void divide(std::uint32_t begin, std::uint32_t end);
+    [[nodiscard]] Node group_of(std::uint32_t begin, std::uint32_t end) const;
 
-    [[nodiscard]] static bool is_below(const Box& box, const Plane& plane) {
-        const Vec3 centre = box.centre(), half = box.high - centre;
-        return plane.height(centre) + glm::dot(half, glm::abs(plane.normal)) <= 0;
-    }
-    /// The rough exchange of two areas is at most their product over pi d^2.
-    [[nodiscard]] static bool is_too_far(const Node& node, const FacePlane& face, double share) {
-        const Vec3 d = face.centre - glm::clamp(face.centre, node.box.low, node.box.high);
-        return std::max(face.area, node.max_area) <= share * std::numbers::pi * glm::dot(d, d);
-    }
+    /// Returns what no rough_exchange() of the face with a patch of the group is larger than, as a
+    /// share of the smaller area; 0 where all turn away.
+    [[nodiscard]] static double bound(const Node& node, const FacePlane& face);
 
     std::span<const FacePlane> faces_;
     std::vector<std::uint32_t> order_;

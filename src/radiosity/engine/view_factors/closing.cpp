@@ -24,12 +24,14 @@ class Rows {
     explicit Rows(ExchangeList& list, std::uint32_t rays)
         : list_(list), lacking_(list.area.size()) {
         variance_.resize(list.pairs.size());
-        for (std::uint32_t i = 0; i < list.pairs.size(); ++i)
+        for (std::uint32_t i = 0; i < list.pairs.size(); ++i) {
+            variance_[i].reserve(list.pairs[i].size());
             for (const PairExchange& pair : list.pairs[i]) {
                 const double least = exact_error * std::min(list.area[i], list.area[pair.to]);
                 const double deviation = std::max(double(pair.deviation), least);
                 variance_[i].push_back(deviation * deviation);
             }
+        }
         for (std::size_t i = 0; i < list.area.size(); ++i)
             for (const OpenShare& open : list.open[i]) {
                 const double deviation = open.factor > 0 ? open.standard_error * list.area[i] : 0;
@@ -218,11 +220,22 @@ double Rows::worst_lacking() const {
     return worst;
 }
 
+std::vector<std::vector<double>> exchanges_of(const ExchangeList& list) {
+    std::vector<std::vector<double>> exchanges(list.pairs.size());
+    for (std::size_t i = 0; i < list.pairs.size(); ++i) {
+        exchanges[i].reserve(list.pairs[i].size());
+        for (const PairExchange& pair : list.pairs[i])
+            exchanges[i].push_back(pair.exchange);
+    }
+    return exchanges;
+}
+
 } // namespace
 
 ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
     ClosingAudit audit;
-    const ExchangeList before = list;
+    const std::vector<std::array<OpenShare, opens>> open_before = list.open;
+    const std::vector<std::vector<double>> exchange_before = exchanges_of(list);
     Rows rows(list, rays_of_row);
     rows.audit_before(audit);
     std::vector<double> first_diagonal(list.area.size());
@@ -255,15 +268,15 @@ ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
         const double own = first_diagonal[i];
         double unfound = 0;
         const auto prior = [&](std::size_t k) {
-            const double deviation = before.open[i][k].standard_error * list.area[i];
+            const double deviation = open_before[i][k].standard_error * list.area[i];
             return deviation * deviation;
         };
         for (std::size_t k = 0; k < opens; ++k)
-            unfound += before.open[i][k].factor > 0 ? 0 : prior(k);
+            unfound += open_before[i][k].factor > 0 ? 0 : prior(k);
         for (std::size_t k = 0; k < opens; ++k) {
             // An opening that no ray found cannot be larger than the rest of the row is uncertain.
             const double variance = prior(k);
-            const double all = own + (before.open[i][k].factor > 0 ? unfound : variance);
+            const double all = own + (open_before[i][k].factor > 0 ? unfound : variance);
             // What is not listed went to where the row is least certain.
             if (variance > 0)
                 list.open[i][k].standard_error =
@@ -272,7 +285,7 @@ ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
         }
         for (std::size_t k = 0; k < list.pairs[i].size(); ++k) {
             PairExchange& pair = list.pairs[i][k];
-            const double old = before.pairs[i][k].exchange, moved = std::abs(pair.exchange - old);
+            const double old = exchange_before[i][k], moved = std::abs(pair.exchange - old);
             const double smaller = std::min(list.area[i], list.area[pair.to]);
             if (!(pair.deviation > 0)) {
                 audit.largest_exact_move = std::max(audit.largest_exact_move, moved / smaller);

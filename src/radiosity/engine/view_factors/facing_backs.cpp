@@ -66,17 +66,17 @@ FacingBacks::FacingBacks(const Mesh& mesh) : mesh_(mesh) {
     std::erase_if(groups_, [](const Group& group) { return group.facets.empty(); });
 }
 
-bool FacingBacks::face(const Patch& patch) {
-    std::size_t& last = last_[main_direction(patch.normal)];
+bool FacingBacks::face(const Patch& patch, Last& last) const {
+    std::size_t& begin = last[main_direction(patch.normal)];
     for (std::size_t k = 0; k < groups_.size(); ++k) {
-        const std::size_t at = (last + k) % groups_.size();
+        const std::size_t at = (begin + k) % groups_.size();
         const Group& group = groups_[at];
         if (!(heights(group.box, patch.normal, patch.shape.corner[0])[1] > height_of_backs) ||
             std::ranges::none_of(group.facets, [&](std::uint32_t facet) {
                 return shows_its_back(mesh_.shape_of(facet), patch);
             }))
             continue;
-        last = at;
+        begin = at;
         return true;
     }
     return false;

@@ -14,13 +14,15 @@ namespace hemilux {
 class Mesh;
 struct Patch;
 
-/// It remembers where it found the last, as neighbours are faced by the same: one for each thread.
 class FacingBacks {
   public:
+    /// Where the last were found, as neighbours are faced by the same; one for each thread.
+    using Last = std::array<std::size_t, 6>; ///< group, by the axis along which a patch faces most
+
     /// The mesh must outlive this.
     explicit FacingBacks(const Mesh& mesh);
 
-    [[nodiscard]] bool face(const Patch& patch);
+    [[nodiscard]] bool face(const Patch& patch, Last& last) const;
 
   private:
     /// Consecutive facets, which are near each other in most files.
@@ -30,7 +32,6 @@ class FacingBacks {
     };
     const Mesh& mesh_;
     std::vector<Group> groups_;
-    std::array<std::size_t, 6> last_{}; ///< group, by the axis along which a patch faces most
 };
 
 } // namespace hemilux

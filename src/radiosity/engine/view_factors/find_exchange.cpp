@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <mutex>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -21,14 +21,14 @@ constexpr double below_least = 5;
 
 /// Sums what was missed by row. A bound of it: what no ray of so many found is below three of them
 /// in 95 % of all cases.
-void find_unlisted(ExchangeList& list, const std::vector<std::vector<float>>& missed,
-                   std::uint32_t rays) {
+void find_unlisted(ExchangeList& list, std::span<const MeasuredRow> measured, std::uint32_t rays) {
     list.unlisted.assign(list.area.size(), 0);
-    for (std::size_t i = 0; i < missed.size(); ++i)
-        for (std::size_t k = 0; k < missed[i].size(); ++k) {
-            const std::uint32_t j = list.pairs[i][k].to;
-            list.unlisted[i] += double(missed[i][k]) / list.area[i];
-            list.unlisted[j] += double(missed[i][k]) / list.area[j];
+    for (std::size_t i = 0; i < measured.size(); ++i)
+        for (std::size_t k = 0; k < measured[i].missed.size(); ++k) {
+            const double missed = measured[i].missed[k];
+            const std::uint32_t j = measured[i].pairs[k].to;
+            list.unlisted[i] += missed / list.area[i];
+            list.unlisted[j] += missed / list.area[j];
         }
     for (const double expected : list.unlisted)
         list.unlisted_bound.push_back(2 * expected + 3.0 / rays);
@@ -42,9 +42,9 @@ class PairsMemory {
     void add_pairs(std::size_t count) { add(per_pair * count); }
 
   private:
-    /// A patch that was seen, in two lists, one of which grows; a pair in the list, as terms of
-    /// both rows and as factors of both.
-    static constexpr std::uint64_t per_seen = 24, per_pair = 128;
+    /// A patch that was seen, in two lists, one of which grows; a pair in the list, and in both
+    /// rows of the factors while the list is freed.
+    static constexpr std::uint64_t per_seen = 24, per_pair = 72;
 
     void add(std::uint64_t bytes) {
         const std::uint64_t sum = bytes_ += bytes;
@@ -84,7 +84,8 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
     list.pairs.resize(patches);
     PairsMemory memory(options.ask);
     std::vector<std::vector<SeenPatch>> seen_patches(patches);
-    const RowScene scene{mesh, tree, options.seed, options.up, options.bands};
+    const FacingBacks backs(mesh);
+    const RowScene scene{mesh, tree, backs, options.seed, options.up, options.bands};
     found.is_void = !trace_all_rows(
         scene, options.rays, "finding pairs", workers, monitor,
         [&](std::uint32_t i, const RowView& view) {
@@ -99,57 +100,54 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
     const std::vector<std::vector<SeenPair>> seen = pairs_of(std::move(seen_patches));
     const FacingPatches groups(faces);
     const PairSearch search{mesh, tree, options, faces, groups, seen};
-    std::vector<std::vector<float>> missed(patches);
-    std::mutex mutex;
-    const auto measure = [&](double scale) {
-        std::vector<std::uint8_t> is_done(patches, 0);
-        ExchangeWork& work = found.work; // pairs of this pass, rays and lines of all
-        work.exact_pairs = work.line_pairs = work.ray_pairs = work.clear_pairs = 0;
-        RowsDone measured(monitor, "measuring pairs", patches);
-        workers.for_chunks_with(
-            patches, 4, [&] { return RowPairs(search, scale); },
-            [&](RowPairs& row, std::size_t begin, std::size_t end) {
-                const ExchangeWork before = row.work();
-                for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
-                    const std::size_t known = list.pairs[i].size();
-                    list.pairs[i].clear();
-                    row.find(static_cast<std::uint32_t>(i), list.pairs[i], missed[i]);
-                    list.pairs[i].shrink_to_fit();
-                    memory.add_pairs(std::max(list.pairs[i].size(), known) - known);
-                    is_done[i] = 1;
-                }
-                const ExchangeWork& now = row.work();
-                monitor.rays += now.rays - before.rays;
-                measured.add(end - begin);
-                const std::lock_guard lock(mutex);
-                work.rays += now.rays - before.rays;
-                work.lines += now.lines - before.lines;
-                work.exact_pairs += now.exact_pairs - before.exact_pairs;
-                work.line_pairs += now.line_pairs - before.line_pairs;
-                work.ray_pairs += now.ray_pairs - before.ray_pairs;
-                work.clear_pairs += now.clear_pairs - before.clear_pairs;
-            });
-        return is_done;
-    };
-    std::vector<std::uint8_t> is_known(patches, 0);
+    std::vector<MeasuredRow> rows(patches);
+    if (options.load)
+        options.load(rows);
+    for (const MeasuredRow& row : rows)
+        if (row.is_measured())
+            memory.add_pairs(row.pairs.size());
     const auto pass = [&](double scale) {
-        const std::vector<std::uint8_t> is_done = measure(scale);
-        for (std::size_t i = 0; i < patches; ++i)
-            is_known[i] |= is_done[i];
-        return static_cast<std::uint64_t>(
-            std::count(is_done.begin(), is_done.end(), std::uint8_t{0}));
+        RowsDone measured(monitor, "measuring pairs", patches);
+        const std::size_t rows_at_a_time = std::size_t{256} * workers.threads();
+        for (std::size_t first = 0; first < patches && !monitor.interrupted;
+             first += rows_at_a_time) {
+            const std::span some =
+                std::span(rows).subspan(first, std::min(rows_at_a_time, patches - first));
+            workers.for_chunks_with(
+                some.size(), 4, [&] { return RowPairs(search, scale); },
+                [&](RowPairs& pairs, std::size_t begin, std::size_t end) {
+                    for (std::size_t k = begin; k < end && !monitor.interrupted; ++k) {
+                        MeasuredRow& row = some[k];
+                        if (row.scale <= scale)
+                            continue;
+                        const std::size_t known = row.pairs.size();
+                        const std::uint64_t rays = row.work.rays;
+                        pairs.measure(static_cast<std::uint32_t>(first + k), row);
+                        memory.add_pairs(std::max(row.pairs.size(), known) - known);
+                        monitor.rays += row.work.rays - rays;
+                    }
+                    measured.add(end - begin);
+                });
+            if (options.keep)
+                options.keep(rows, false);
+        }
     };
-    found.work.rows_left = patches;
     for (const double scale : options.before)
-        if (!monitor.interrupted)
-            pass(scale);
-    if (!monitor.interrupted)
-        found.work.rows_left = pass(1);
-    for (std::uint32_t i = 0; i < patches; ++i)
-        if (is_known[i] == 0)
-            pairs_by_rays(i, faces, seen[i], options.rays, list.pairs[i], missed[i]);
+        pass(scale);
+    pass(1);
+    if (options.keep)
+        options.keep(rows, true);
+    for (std::uint32_t i = 0; i < patches; ++i) {
+        MeasuredRow& row = rows[i];
+        if (!row.is_measured())
+            pairs_by_rays(i, faces, seen[i], options.rays, row.pairs, row.missed);
+        found.work += row.work;
+        found.work.rows_left += row.scale > 1 ? 1 : 0;
+    }
     found.work.rays += patches * options.rays;
-    find_unlisted(list, missed, options.rays);
+    find_unlisted(list, rows, options.rays);
+    for (std::size_t i = 0; i < patches; ++i)
+        list.pairs[i] = std::move(rows[i].pairs);
     return found;
 }
 

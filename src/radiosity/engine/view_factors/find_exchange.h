@@ -10,9 +10,11 @@
 #include "bvh/wide/wide_bvh.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/view_factors/exchange_list.h"
+#include "radiosity/engine/view_factors/measured_rows.h"
 
 #include <cstdint>
 #include <functional>
+#include <span>
 
 namespace hemilux {
 
@@ -45,14 +47,16 @@ struct ExchangeOptions {
     /// Is called as rows are found, from all threads, with the bytes that the pairs found so far
     /// will take at the peak of summing and writing them. What it throws ends the work.
     std::function<void(double bytes)> ask = {};
+    /// Is called before rows are measured. It may fill in those that another run with the same
+    /// options measured; these are not measured again.
+    std::function<void(std::span<MeasuredRow>)> load = {};
+    /// Is called from one thread after every few hundred rows, and at last when no more will be
+    /// measured.
+    std::function<void(std::span<const MeasuredRow>, bool is_last)> keep = {};
 };
 
-/// The work that it took.
-struct ExchangeWork {
-    std::uint64_t rays = 0, lines = 0;
-    std::uint64_t exact_pairs = 0, line_pairs = 0, ray_pairs = 0;
-    /// Pairs of which neither a certificate nor a line says that something hides a part.
-    std::uint64_t clear_pairs = 0;
+/// The work that all took.
+struct ExchangeWork : PairWork {
     /// Patches whose pairs of higher index are less exact than they should be, as the time was over
     /// or the run was interrupted.
     std::uint64_t rows_left = 0;

@@ -159,7 +159,8 @@ OpenViews find_open_views(const Mesh& mesh, const Tracer& tracer, const OpenView
     const auto keep_bands = [&](std::size_t i, const std::vector<OpenShare>& bands) {
         std::ranges::copy(bands, views.bands.begin() + static_cast<std::ptrdiff_t>(i * of_row));
     };
-    const RowScene scene{mesh, tracer, options.seed, options.up, options.bands};
+    const FacingBacks backs(mesh);
+    const RowScene scene{mesh, tracer, backs, options.seed, options.up, options.bands};
     views.is_void = !trace_all_rows(scene, first_rays, "looking around", workers, monitor,
                                     [&](std::uint32_t i, const RowView& view) {
                                         views.open[i] = view.open;

@@ -10,7 +10,7 @@ namespace hemilux {
 namespace {
 
 /// The fewest and the most rays that look for each other between a pair that no ray of a row found.
-constexpr std::uint32_t min_probes = 2, max_probes = 32;
+constexpr std::uint32_t min_probes = 1, max_probes = 32;
 
 /// A pair that needs no more rays than these is estimated by rays alone; so many are the least.
 constexpr double max_pair_rays = 24;
@@ -20,7 +20,7 @@ constexpr std::uint32_t min_pair_rays = 4;
 constexpr std::size_t pair_rays_at_a_time = 65'536;
 
 /// Pairs whose factors are this share of their tolerance are not looked for.
-constexpr double smallest_searched = .1;
+constexpr double smallest_searched = .3;
 
 } // namespace
 
@@ -66,7 +66,7 @@ void RowPairs::look_for(std::uint32_t i) {
 }
 
 /// Adds those of the unseen that a few rays see after all.
-void RowPairs::probe(std::uint32_t i) {
+void RowPairs::probe(std::uint32_t i, MeasuredRow& row) {
     constexpr std::size_t at_a_time = 4096;
     for (std::size_t begin = 0; begin < unseen_.size(); begin += at_a_time) {
         const std::size_t end = std::min(begin + at_a_time, unseen_.size());
@@ -75,7 +75,7 @@ void RowPairs::probe(std::uint32_t i) {
             probes_.add(faces_[i], mesh_.patches()[i].facet, faces_[j], mesh_.patches()[j].facet,
                         unseen_[k].probes, seed_of(i, j, 1));
         }
-        work_.rays += probes_.size();
+        row.work.rays += probes_.size();
         probes_.trace([&](std::size_t pair, const PairRays::Share& share) {
             if (share.arrived > 0)
                 candidates_.push_back(unseen_[begin + pair]);
@@ -84,25 +84,29 @@ void RowPairs::probe(std::uint32_t i) {
     std::ranges::sort(candidates_, {}, &Candidate::to);
 }
 
-void RowPairs::find(std::uint32_t i, std::vector<PairExchange>& pairs, std::vector<float>& missed) {
+void RowPairs::measure(std::uint32_t i, MeasuredRow& row) {
+    row.scale = scale_;
+    row.work = {.rays = row.work.rays, .lines = row.work.lines};
+    row.pairs.clear();
+    row.missed.clear();
     look_for(i);
-    probe(i);
-    missed_.clear();
+    probe(i, row);
     for (const Candidate& pair : candidates_) {
-        estimate(i, pair, pairs);
+        estimate(i, pair, row);
         if (rays_.size() >= pair_rays_at_a_time)
-            trace_small(i, pairs);
+            trace_small(i, row);
     }
-    trace_small(i, pairs);
-    missed.assign(missed_.begin(), missed_.end());
+    trace_small(i, row);
+    row.pairs.shrink_to_fit();
+    row.missed.shrink_to_fit();
 }
 
 /// Traces the rays of the pairs that are estimated by rays alone.
-void RowPairs::trace_small(std::uint32_t i, std::vector<PairExchange>& pairs) {
-    work_.rays += rays_.size();
+void RowPairs::trace_small(std::uint32_t i, MeasuredRow& row) {
+    row.work.rays += rays_.size();
     rays_.trace([&](std::size_t k, const PairRays::Share& share) {
         const Small& small = small_[k];
-        PairExchange& pair = pairs[small.place];
+        PairExchange& pair = row.pairs[small.place];
         const double seen = share.all > 0 ? share.seen / share.all : 0;
         // So many rays of equal weight have the same variance. The prior is half a ray on either
         // side.
@@ -120,14 +124,13 @@ void RowPairs::trace_small(std::uint32_t i, std::vector<PairExchange>& pairs) {
         pair.deviation = static_cast<float>(
             stands_for_others ? elementary::hypot(deviation, missed * exchange) / found
                               : deviation);
-        missed_[small.place] = stands_for_others ? 0 : static_cast<float>(missed * whole);
+        row.missed[small.place] = stands_for_others ? 0 : static_cast<float>(missed * whole);
     });
-    work_.ray_pairs += small_.size();
+    row.work.ray_pairs += small_.size();
     small_.clear();
 }
 
-void RowPairs::estimate(std::uint32_t i, const Candidate& candidate,
-                        std::vector<PairExchange>& pairs) {
+void RowPairs::estimate(std::uint32_t i, const Candidate& candidate, MeasuredRow& row) {
     const std::uint32_t j = candidate.to;
     const FacePlane &a = faces_[i], &b = faces_[j];
     const double free =
@@ -139,22 +142,22 @@ void RowPairs::estimate(std::uint32_t i, const Candidate& candidate,
         const auto count = std::max(static_cast<std::uint32_t>(std::ceil(rays)), min_pair_rays);
         rays_.add(a, mesh_.patches()[i].facet, b, mesh_.patches()[j].facet, count,
                   seed_of(i, j, 2));
-        small_.push_back({pairs.size(), candidate, free});
-        pairs.push_back({j, 0, 0});
-        missed_.push_back(0);
+        small_.push_back({row.pairs.size(), candidate, free});
+        row.pairs.push_back({j, 0, 0});
+        row.missed.push_back(0);
         return;
     }
     const PairEstimate found =
         hidden_.between(i, a, j, b, candidate.facing, seed_of(i, j, 3),
                         [&](double exchange) { return tolerance(i, j, exchange); });
-    work_.lines += found.lines;
-    ++(found.lines > 0 ? work_.line_pairs : work_.exact_pairs);
-    work_.clear_pairs += found.is_clear ? 1 : 0;
+    row.work.lines += found.lines;
+    ++(found.lines > 0 ? row.work.line_pairs : row.work.exact_pairs);
+    row.work.clear_pairs += found.is_clear ? 1 : 0;
     if (!(found.exchange > 0))
         return;
     const double missed = missed_chance(i, candidate, found.exchange, found.share);
-    pairs.push_back({j, static_cast<float>(found.deviation), found.exchange});
-    missed_.push_back(static_cast<float>(found.exchange * missed / std::max(1 - missed, .1)));
+    row.pairs.push_back({j, static_cast<float>(found.deviation), found.exchange});
+    row.missed.push_back(static_cast<float>(found.exchange * missed / std::max(1 - missed, .1)));
 }
 
 } // namespace hemilux

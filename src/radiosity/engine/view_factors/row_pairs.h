@@ -2,9 +2,9 @@
 // The pairs of one patch with those of higher index: which of them see each other, and how much
 // they exchange.
 
+#include "radiosity/engine/pair_factors/facing_patches.h"
 #include "radiosity/engine/pair_factors/hidden_exchange.h"
 #include "radiosity/engine/pair_factors/pair_rays.h"
-#include "radiosity/engine/view_factors/facing_patches.h"
 #include "radiosity/engine/view_factors/find_exchange.h"
 #include "radiosity/engine/view_factors/seen_pairs.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -34,10 +34,8 @@ class RowPairs {
           groups_(search.groups), seen_(search.seen), scale_(scale), rays_(search.tree),
           probes_(search.tree), hidden_(search.mesh, search.tree), is_seen_(faces_.size()) {}
 
-    /// Finds the pairs of a patch with those of higher index. `missed` gets for each the exchange
-    /// of other pairs like it that were not found, as the chance of finding it says.
-    void find(std::uint32_t i, std::vector<PairExchange>& pairs, std::vector<float>& missed);
-    [[nodiscard]] const ExchangeWork& work() const { return work_; }
+    /// Measures the pairs of a patch with those of higher index.
+    void measure(std::uint32_t i, MeasuredRow& row);
 
   private:
     struct Candidate {
@@ -52,13 +50,13 @@ class RowPairs {
         double free;
     };
     void look_for(std::uint32_t i);
-    void probe(std::uint32_t i);
+    void probe(std::uint32_t i, MeasuredRow& row);
     [[nodiscard]] std::uint32_t probes_of(double rough, double tolerance) const;
     /// Returns the chance that a pair was found by no ray.
     [[nodiscard]] double missed_chance(std::uint32_t i, const Candidate& pair, double exchange,
                                        double share) const;
-    void estimate(std::uint32_t i, const Candidate& pair, std::vector<PairExchange>& pairs);
-    void trace_small(std::uint32_t i, std::vector<PairExchange>& pairs);
+    void estimate(std::uint32_t i, const Candidate& pair, MeasuredRow& row);
+    void trace_small(std::uint32_t i, MeasuredRow& row);
     [[nodiscard]] std::uint64_t seed_of(std::uint32_t i, std::uint32_t j, std::uint64_t use) const {
         return hash_words({options_.seed, i, j, use});
     }
@@ -78,8 +76,6 @@ class RowPairs {
     std::vector<bool> is_seen_; ///< by patch, of the row
     std::vector<Candidate> candidates_, unseen_;
     std::vector<Small> small_;
-    std::vector<float> missed_;
-    ExchangeWork work_;
 };
 
 } // namespace hemilux

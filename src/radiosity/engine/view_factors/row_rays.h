@@ -29,6 +29,16 @@ struct RowView {
     std::vector<OpenShare> bands; ///< of the sky
 };
 
+/// What rays look at; all of it outlives them.
+struct RowScene {
+    const Mesh& mesh;
+    const Tracer& tracer;
+    const FacingBacks& backs; ///< of the mesh
+    std::uint64_t seed;
+    int up; ///< axis that points to the sky
+    const SkyBands* bands = nullptr;
+};
+
 /// The rays of a row are independent batches of scrambled Sobol points, whose spread is the error
 /// (share_of_blocks). It is 0 where no direction of the patch goes one way, or no back faces it.
 /// Reusable memory of one thread.
@@ -36,33 +46,17 @@ class RowRays {
   public:
     static constexpr std::uint32_t batches = 16;
 
-    /// The mesh, the tracer and the bands, if any, must outlive this. `up` is the axis that points
-    /// to the sky.
-    RowRays(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed, int up,
-            const SkyBands* bands = nullptr);
+    explicit RowRays(const RowScene& scene) : scene_(scene) {}
 
     /// Traces `rays` rays of a patch by Lambert's law, a power of two, 256 at least.
     void trace(std::uint32_t patch, std::uint32_t rays, RowView& view);
 
   private:
-    const Mesh& mesh_;
-    const Tracer& tracer_;
-    std::uint64_t seed_;
-    int up_;
-    const SkyBands* bands_;
-    FacingBacks backs_;
+    RowScene scene_;
+    FacingBacks::Last last_{};
     std::vector<std::uint32_t> band_counts_;
     std::vector<Ray> rays_;
     std::vector<std::uint32_t> receivers_, hit_;
-};
-
-/// What rays look at; all of it outlives them.
-struct RowScene {
-    const Mesh& mesh;
-    const Tracer& tracer;
-    std::uint64_t seed;
-    int up; ///< axis that points to the sky
-    const SkyBands* bands;
 };
 
 /// Traces `rays` rays of every patch, as RowRays does, and calls keep(patch, view), from all

@@ -8,59 +8,80 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace hemilux {
 namespace {
 
+/// What a pair of patches adds to an entry of a row.
 struct Term {
     std::uint32_t column;
-    double exchange, variance;
+    double exchange, deviation;
 };
 
-void sum_pairs(const ExchangeList& list, std::span<const std::uint32_t> row_of,
-               ViewFactors& factors) {
-    const std::size_t rows = factors.rows();
-    std::vector<std::size_t> begin(rows + 1);
-    const auto for_each = [&](const auto& use) {
-        for (std::size_t i = 0; i < list.pairs.size(); ++i)
-            for (const PairExchange& pair : list.pairs[i])
-                if (pair.exchange > 0) {
-                    use(row_of[i], row_of[pair.to], pair);
-                    use(row_of[pair.to], row_of[i], pair);
-                }
+/// Puts the terms of all pairs into the rows, in the order of the list, and frees the list.
+void scatter_pairs(std::vector<std::vector<PairExchange>> pairs,
+                   std::span<const std::uint32_t> row_of, ViewFactors& factors) {
+    factors.row_begin.assign(factors.rows() + 1, 0);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        for (const PairExchange& pair : pairs[i])
+            if (pair.exchange > 0)
+                for (const std::uint32_t row : {row_of[i], row_of[pair.to]})
+                    ++factors.row_begin[row + 1];
+    std::partial_sum(factors.row_begin.begin(), factors.row_begin.end(), factors.row_begin.begin());
+    const std::size_t terms = factors.row_begin.back();
+    factors.column.resize(terms);
+    factors.factor.resize(terms);
+    factors.standard_error.resize(terms);
+    std::vector<std::size_t> next(factors.row_begin.begin(), factors.row_begin.end() - 1);
+    const auto put = [&](std::uint32_t row, std::uint32_t column, const PairExchange& pair) {
+        const std::size_t at = next[row]++;
+        factors.column[at] = column;
+        factors.factor[at] = pair.exchange;
+        factors.standard_error[at] = pair.deviation;
     };
-    for_each([&](std::uint32_t row, std::uint32_t, const PairExchange&) { ++begin[row + 1]; });
-    for (std::size_t row = 0; row < rows; ++row)
-        begin[row + 1] += begin[row];
-    std::vector<Term> terms(begin[rows]);
-    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-    for_each([&](std::uint32_t row, std::uint32_t column, const PairExchange& pair) {
-        const double deviation = pair.deviation;
-        terms[next[row]++] = {column, pair.exchange, deviation * deviation};
-    });
-    factors.row_begin.assign(1, 0);
-    factors.column.reserve(terms.size()); // lists that grow would be there twice
-    factors.factor.reserve(terms.size());
-    factors.standard_error.reserve(terms.size());
-    for (std::size_t row = 0; row < rows; ++row) {
-        const auto of_row = std::span(terms).subspan(begin[row], begin[row + 1] - begin[row]);
-        std::ranges::stable_sort(of_row, {}, &Term::column);
-        for (std::size_t k = 0; k < of_row.size();) {
-            const std::uint32_t column = of_row[k].column;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        for (const PairExchange& pair : pairs[i])
+            if (pair.exchange > 0) {
+                put(row_of[i], row_of[pair.to], pair);
+                put(row_of[pair.to], row_of[i], pair);
+            }
+        pairs[i] = {};
+    }
+}
+
+/// Sums the terms of each row in place, which are many more than the entries where surfaces have
+/// several patches.
+void sum_terms(ViewFactors& factors) {
+    std::vector<Term> terms;
+    std::size_t begin = 0, entries = 0;
+    for (std::size_t row = 0; row < factors.rows(); ++row) {
+        const std::size_t end = factors.row_begin[row + 1];
+        terms.clear();
+        for (std::size_t at = begin; at < end; ++at)
+            terms.push_back({factors.column[at], factors.factor[at], factors.standard_error[at]});
+        std::ranges::stable_sort(terms, {}, &Term::column);
+        for (std::size_t k = 0; k < terms.size(); ++entries) {
+            const std::uint32_t column = terms[k].column;
             CompensatedSum<double> exchange;
             double variance = 0;
             // Within one surface each pair of patches is there from both sides, with one error.
             const double twice = column == row ? 2 : 1;
-            for (; k < of_row.size() && of_row[k].column == column; ++k) {
-                exchange += of_row[k].exchange;
-                variance += twice * of_row[k].variance;
+            for (; k < terms.size() && terms[k].column == column; ++k) {
+                exchange += terms[k].exchange;
+                variance += twice * (terms[k].deviation * terms[k].deviation);
             }
-            factors.column.push_back(column);
-            factors.factor.push_back(exchange.value() / factors.area[row]);
-            factors.standard_error.push_back(std::sqrt(variance) / factors.area[row]);
+            factors.column[entries] = column;
+            factors.factor[entries] = exchange.value() / factors.area[row];
+            factors.standard_error[entries] = std::sqrt(variance) / factors.area[row];
         }
-        factors.row_begin.push_back(factors.column.size());
+        factors.row_begin[row + 1] = entries;
+        begin = end;
     }
+    factors.column.resize(entries);
+    factors.factor.resize(entries);
+    factors.standard_error.resize(entries);
 }
 
 /// Sums the parts of the sky, which are scaled to what closing left of it.
@@ -86,7 +107,7 @@ void sum_bands(const ExchangeList& list, std::span<const std::uint32_t> row_of,
 
 } // namespace
 
-ViewFactors sum_over_rows(const ExchangeList& list, std::span<const std::uint32_t> row_of,
+ViewFactors sum_over_rows(ExchangeList list, std::span<const std::uint32_t> row_of,
                           std::size_t rows) {
     ViewFactors factors;
     factors.area.assign(rows, 0);
@@ -107,7 +128,8 @@ ViewFactors sum_over_rows(const ExchangeList& list, std::span<const std::uint32_
         }
     }
     sum_bands(list, row_of, factors);
-    sum_pairs(list, row_of, factors);
+    scatter_pairs(std::move(list.pairs), row_of, factors);
+    sum_terms(factors);
     return factors;
 }
 
@@ -118,7 +140,7 @@ ViewFactors view_factors(const Mesh& mesh, const WideBvh& tree,
     if (found.is_void)
         return {};
     const ClosingAudit audit = close_rows(found.list, options.rays);
-    ViewFactors factors = sum_over_rows(found.list, row_of, rows);
+    ViewFactors factors = sum_over_rows(std::move(found.list), row_of, rows);
     factors.audit = audit;
     factors.work = found.work;
     return factors;

@@ -51,9 +51,9 @@ struct ViewFactors {
                                        const ExchangeOptions& options, const Workers& workers,
                                        Monitor& monitor);
 
-/// Sums the exchange of patches over surfaces.
-[[nodiscard]] ViewFactors sum_over_rows(const ExchangeList& list,
-                                        std::span<const std::uint32_t> row_of, std::size_t rows);
+/// Sums the exchange of patches over surfaces, and frees it as it does so.
+[[nodiscard]] ViewFactors sum_over_rows(ExchangeList list, std::span<const std::uint32_t> row_of,
+                                        std::size_t rows);
 
 /// The errors of factors of at least a size, from either side of a pair.
 struct FactorErrors {

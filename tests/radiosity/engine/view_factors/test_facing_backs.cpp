@@ -55,11 +55,12 @@ TEST_CASE("Backs face a patch where one of all facets does, in any order of patc
         const int count = seed % 3 == 0 ? 300 : 6;
         const test::Model model(
             scattered(seed, count, seed % 2 == 0 ? 1 : .02, seed % 5 == 0 ? 3.1 : .4));
-        FacingBacks backs(model.mesh);
+        const FacingBacks backs(model.mesh);
+        FacingBacks::Last last{};
         for (std::size_t k = 0; k < model.mesh.patches().size(); ++k) {
             const Patch& patch = model.mesh.patches()[(7 * k) % model.mesh.patches().size()];
             const bool expected = is_faced(model.mesh, patch);
-            CHECK(backs.face(patch) == expected);
+            CHECK(backs.face(patch, last) == expected);
             faced += expected ? 1 : 0;
             ++all;
         }
@@ -80,7 +81,8 @@ TEST_CASE("No back faces the inside of a closed room") {
             test::add_quad(room, at, at + u, at + u + v, at + v, 5, 5, 0);
         }
     const test::Model model(room);
-    FacingBacks backs(model.mesh);
+    const FacingBacks backs(model.mesh);
+    FacingBacks::Last last{};
     for (const Patch& patch : model.mesh.patches())
-        CHECK_FALSE(backs.face(patch));
+        CHECK_FALSE(backs.face(patch, last));
 }

@@ -52,7 +52,8 @@ TEST_CASE("Errors of the sky and the ground hold for patches of all tilts") {
     int count = 0;
     for (const std::uint64_t seed : {1, 2, 3}) {
         const OpenViews views = views_of(model, {.seed = seed});
-        RowRays referee(model.mesh, model.bvh, 99, 2);
+        const FacingBacks backs(model.mesh);
+        RowRays referee({model.mesh, model.bvh, backs, 99, 2});
         RowView truth;
         for (std::uint32_t i = 0; i < patches; ++i) {
             referee.trace(i, 1 << 16, truth);

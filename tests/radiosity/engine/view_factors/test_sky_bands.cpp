@@ -86,7 +86,8 @@ TEST_CASE("Bands of a free sky have the closed form sin^2, within their errors")
     constexpr int seeds = 40;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         RowView view;
-        RowRays(model.mesh, model.bvh, seed, 2, &sky).trace(0, 1024, view);
+        const FacingBacks backs(model.mesh);
+        RowRays({model.mesh, model.bvh, backs, seed, 2, &sky}).trace(0, 1024, view);
         REQUIRE(view.bands.size() == 9);
         CHECK(sum_of(view.bands) == Approx(1));
         for (std::size_t k = 0; k < 9; ++k) {
@@ -137,7 +138,8 @@ TEST_CASE("An opening that rays miss has an error that covers it") {
     int missed = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         RowView view;
-        RowRays(model.mesh, model.bvh, seed, 2).trace(0, 256, view);
+        const FacingBacks backs(model.mesh);
+        RowRays({model.mesh, model.bvh, backs, seed, 2}).trace(0, 256, view);
         const auto& [sky, ground, back] = view.open;
         missed += sky.factor == 0;
         CHECK(std::abs(sky.factor - truth) < 3 * sky.standard_error);

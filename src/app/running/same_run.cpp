@@ -1,0 +1,35 @@
+#include "app/running/same_run.h"
+
+#include "io/files/error.h"
+
+#include <algorithm>
+
+namespace hemilux {
+
+void check_same_run(const CheckpointOptions& found, const CheckpointOptions& wanted,
+                    const std::string& file,
+                    const std::function<std::string(const std::string& name)>& default_of) {
+    const auto value_of = [&](const CheckpointOptions& options, const std::string& name) {
+        const auto same = std::ranges::find(options, name, &CheckpointOptions::value_type::first);
+        if (same != options.end())
+            return same->second;
+        return default_of ? default_of(name) : std::string();
+    };
+    for (const auto& [name, value] : wanted)
+        if (const std::string there = value_of(found, name); there != value)
+            throw InputError(file, "is a checkpoint of another run: expected " + name + " " +
+                                       value + ", it has " + (there.empty() ? "nothing" : there));
+    for (const auto& [name, value] : found)
+        if (value_of(wanted, name) != value)
+            throw InputError(file, "is a checkpoint of another run, with options unknown here");
+}
+
+void check_same_scene(std::uint64_t found, std::uint64_t wanted, const std::string& file,
+                      const std::string& scene) {
+    if (found != wanted)
+        throw InputError(file, "is a checkpoint of another scene; expected '" + scene +
+                                   "' as it is now, with the same --max-edge, --sides, "
+                                   "--emission and --reflectance");
+}
+
+} // namespace hemilux
