@@ -95,7 +95,7 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     solve_settings.ranks = bake_settings.ranks = compare_settings.ranks = &ranks;
     DensitySettings density_settings;
     FormFactorSettings formfactor_settings;
-    ViewFactorSettings viewfactor_settings;
+    ViewFactorSettings viewfactor_settings, exchange_settings;
     DimSettings dim_settings;
     InfoSettings info_settings;
     program.program().add_version("-V,--version", "hemilux " HEMILUX_VERSION,
@@ -106,6 +106,7 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     const Command density_command = add_density_command(program, density_settings);
     const Command formfactors_command = add_formfactors_command(program, formfactor_settings);
     const Command viewfactors_command = add_viewfactors_command(program, viewfactor_settings);
+    const Command exchange_command = add_exchange_command(program, exchange_settings);
     const Command dim_command = add_dim_command(program, dim_settings);
     add_info_command(program, info_settings);
     program.program().add_answer(
@@ -126,7 +127,7 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     for (const SceneSettings* const scene :
          {&solve_settings.scene, &bake_settings.scene, &compare_settings.scene,
           &density_settings.scene, &formfactor_settings.scene, &viewfactor_settings.scene,
-          &info_settings.scene})
+          &exchange_settings.scene, &info_settings.scene})
         if (scene->memory) // of the command that was given
             bound_inputs(scene->memory);
     if (solve_command.parsed()) {
@@ -162,6 +163,10 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
             provenance(viewfactors_command, viewfactor_settings.options.seed);
         viewfactor_settings.given = viewfactors_command.options_given();
         return viewfactors(viewfactor_settings);
+    }
+    if (exchange_command.parsed()) {
+        exchange_settings.given = exchange_command.options_given();
+        return viewfactors(exchange_settings);
     }
     return info(info_settings);
 }

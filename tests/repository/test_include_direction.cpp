@@ -39,6 +39,7 @@ const std::vector<std::string> rooms{
     "radiosity/engine/pair_factors",
     "radiosity/engine/view_factors",
     "radiosity/engine/point_views",
+    "radiosity/engine/heat",
     "radiosity/engine/linear",
     "radiosity/engine/densities",
     "radiosity/engine/shooting",

@@ -16,6 +16,7 @@ Command add_compare_command(Arguments& program, CompareSettings& settings);
 Command add_density_command(Arguments& program, DensitySettings& settings);
 Command add_formfactors_command(Arguments& program, FormFactorSettings& settings);
 Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings);
+Command add_exchange_command(Arguments& program, ViewFactorSettings& settings);
 Command add_dim_command(Arguments& program, DimSettings& settings);
 Command add_info_command(Arguments& program, InfoSettings& settings);
 

@@ -22,6 +22,11 @@ constexpr const char* viewfactors_examples = R"(Examples:
   hemilux viewfactors city.stl -o city.npz --checkpoint city.saved --resume city.saved
 )";
 
+constexpr const char* exchange_examples = R"(Examples:
+  hemilux exchange furnace.obj --by group --surfaces known.csv -o heat.csv
+  hemilux exchange street.obj --by group --surfaces known.csv --sky-temperature 263 -o heat.csv
+)";
+
 std::optional<std::uint32_t> rays_from(const std::string& text) {
     const std::optional<std::uint64_t> value = parse_whole(text);
     return value && std::has_single_bit(*value) && *value >= 256 && *value <= (1u << 20)
@@ -41,11 +46,14 @@ std::optional<std::string> output_from(const std::string& path) {
     return factor_file_of(path) ? std::optional(path) : std::nullopt;
 }
 
-} // namespace
+void add_temperature(Command command, const std::string& name, std::optional<double>& temperature,
+                     const std::string& what) {
+    add_number(command, name, "KELVIN", temperature, non_negative,
+               "how warm " + what + " is, which is black; needed where a surface sees it");
+}
 
-Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings) {
-    const Command command = program.add_command(
-        "viewfactors", "write the view factors between surfaces, each with its error");
+/// Adds what says which surfaces there are, and how exact factors should be.
+void add_factor_options(Command command, ViewFactorSettings& settings) {
     add_geometry_options(command, settings.scene);
     add_memory_option(command.under(scene_group), settings.scene);
     const Command method = command.under(method_group);
@@ -72,6 +80,20 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
                "rays from each face, a power of two, that find who sees whom [1024]",
                "a power of two from 256 to 1048576", rays_from,
                [&settings](std::uint32_t rays) { settings.rays = rays; });
+    add_choice<int>(method, "--up", {{0, "x"}, {1, "y"}, {2, "z"}},
+                    "the axis that points to the sky [y for glTF, else z]",
+                    [&settings](int axis) { settings.up = axis; });
+    add_random_options(method, settings.options);
+    add_checkpoint_options(command.under("Checkpoints"), settings.checkpoint);
+}
+
+} // namespace
+
+Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings) {
+    const Command command = program.add_command(
+        "viewfactors", "write the view factors between surfaces, each with its error");
+    add_factor_options(command, settings);
+    const Command method = command.under(method_group);
     method.add_flag("--sky", settings.sky, "make the sky a column: what leaves the scene upwards");
     add_parsed(
         method, "--sky-bands", "N|tregenza",
@@ -85,9 +107,6 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
         });
     method.add_flag("--ground", settings.ground,
                     "make the ground a column: what leaves the scene downwards");
-    add_choice<int>(method, "--up", {{0, "x"}, {1, "y"}, {2, "z"}},
-                    "the axis that points to the sky [y for glTF, else z]",
-                    [&settings](int axis) { settings.up = axis; });
     method.add_text("--points", "FILE", settings.points,
                     "points with normals that get rows of their own: rows x,y,z,nx,ny,nz");
     add_parsed(method, "--sun", "X,Y,Z",
@@ -96,8 +115,6 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
                [&settings](const Vec3& direction) { settings.sun = direction; });
     method.add_text("--suns", "FILE", settings.suns,
                     "more suns for --sunlit: rows x,y,z of such directions");
-    add_random_options(method, settings.options);
-    add_checkpoint_options(command.under("Checkpoints"), settings.checkpoint);
     const Command output = command.under(output_group);
     add_parsed(
         output, "-o,--output", "FILE",
@@ -116,6 +133,28 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
              ".csv", [&settings](const std::string& path) { settings.sunlit = path; });
     add_verbosity_options(command, settings.verbosity);
     command.end_help_with(viewfactors_examples);
+    return command;
+}
+
+Command add_exchange_command(Arguments& program, ViewFactorSettings& settings) {
+    const Command command = program.add_command(
+        "exchange", "write the heat that surfaces exchange by radiation, with its errors");
+    add_factor_options(command, settings);
+    const Command method = command.under(method_group);
+    method
+        .add_text("--surfaces", "FILE.csv", settings.heat.surfaces,
+                  "what is known: columns surface, emissivity, and of each row the temperature [K] "
+                  "or the flux that it gives off [W/m2]; * in a name stands for any letters")
+        .required();
+    add_temperature(method, "--sky-temperature", settings.heat.sky_temperature, "the sky");
+    add_temperature(method, "--ground-temperature", settings.heat.ground_temperature,
+                    "what lies below the scene");
+    add_path(command.under(output_group), "-o,--output", "FILE.csv",
+             "a table of temperatures and heat by surface, each with its standard error", ".csv",
+             [&settings](const std::string& path) { settings.heat.output = path; })
+        .required();
+    add_verbosity_options(command, settings.verbosity);
+    command.end_help_with(exchange_examples);
     return command;
 }
 

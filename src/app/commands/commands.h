@@ -14,6 +14,7 @@ int bake_occlusion(const SolveSettings& settings);
 int compare(const CompareSettings& settings);
 int density(DensitySettings settings);
 int formfactors(const FormFactorSettings& settings);
+/// `viewfactors`, and `exchange`, whose settings have heat.
 int viewfactors(const ViewFactorSettings& settings);
 int dim(const DimSettings& settings);
 int info(const InfoSettings& settings);

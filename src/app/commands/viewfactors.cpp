@@ -6,6 +6,7 @@
 #include "app/factors/factor_points.h"
 #include "app/factors/factor_run.h"
 #include "app/factors/factor_surfaces.h"
+#include "app/factors/heat_table.h"
 #include "app/factors/sunlit_run.h"
 #include "app/gathering/point_table.h"
 #include "app/loading/load.h"
@@ -98,6 +99,9 @@ void check_dense(const ViewFactorSettings& settings, std::size_t rows, std::size
 void check_sky(const ViewFactorSettings& settings) {
     if (settings.aim.of != FactorAim::Of::sky)
         return;
+    if (!settings.heat.output.empty())
+        throw UsageError("--of sky computes no factors between surfaces, by which they exchange "
+                         "heat");
     for (const std::string& path : settings.outputs) {
         const auto kind = factor_file_of(path);
         if (kind != FactorFile::udales_sky && kind != FactorFile::cells)
@@ -133,11 +137,12 @@ struct FoundFactors {
     std::vector<FactorPlace> places;
     std::vector<FactorPoint> points;
     std::vector<PointFactors> point_rows;
+    std::vector<GreySurface> grey; ///< of `exchange`, by row
 };
 
 /// Returns whether anything but --sunlit is to be written.
 bool wants_factors(const ViewFactorSettings& settings) {
-    return !settings.outputs.empty() || !settings.legend.empty();
+    return !settings.outputs.empty() || !settings.legend.empty() || !settings.heat.output.empty();
 }
 
 /// Computes what is to be written, and logs how exact it is.
@@ -146,6 +151,10 @@ FoundFactors compute(const ViewFactorSettings& settings, const FactorScene& scen
     const Stage stage(monitor, settings.verbosity);
     const Stopwatch watch;
     FoundFactors results;
+    if (!settings.heat.surfaces.empty()) {
+        results.grey = read_grey_surfaces(settings.heat.surfaces, scene.surfaces);
+        check_temperatures(settings, scene, results.grey);
+    }
     results.places = places_of(points);
     results.points = factor_points(results.places, scene.mesh, scene.tree);
     if (!wants_factors(settings))
@@ -208,12 +217,14 @@ void warn_of_low_suns(const ViewFactorSettings& settings, std::span<const Vec3> 
 /// Returns the files of the run. Throws UsageError where there is nothing to write.
 RunFiles files_of(const ViewFactorSettings& settings) {
     std::vector<std::string> outputs = settings.outputs;
-    for (const std::string& path : {settings.legend, settings.sunlit})
+    for (const std::string& path : {settings.legend, settings.sunlit, settings.heat.output})
         if (!path.empty())
             outputs.push_back(path);
-    if (settings.outputs.empty() && settings.sunlit.empty())
+    if (outputs.empty() || outputs == std::vector{settings.legend})
         throw UsageError("--output: name a file to write, or one of --sunlit");
     RunFiles files = check_files(outputs, settings.scene.path);
+    if (!settings.heat.surfaces.empty())
+        files.read("file of --surfaces", settings.heat.surfaces);
     check_checkpoint_files(settings, files);
     return files;
 }
@@ -241,6 +252,13 @@ WriteReport write_found(const ViewFactorSettings& settings, const FactorScene& s
             report.attempt(settings.legend, [&] { write_factor_legend(settings.legend, table); });
     };
     write_outputs(false);
+    if (results.has_factors && !settings.heat.output.empty()) {
+        const Stage stage("exchanging heat", settings.verbosity);
+        report.attempt(settings.heat.output, [&] {
+            write_heat(settings, scene.surfaces, results.grey, results.factors,
+                       scene.mesh.frame().area_to_world(1));
+        });
+    }
     if (suns.empty())
         return report;
     report.attempt(settings.sunlit, [&] {

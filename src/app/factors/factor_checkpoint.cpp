@@ -51,7 +51,7 @@ void check_checkpoint_options(const ViewFactorSettings& settings) {
     if (settings.aim.of == FactorAim::Of::sky || settings.aim.of == FactorAim::Of::largest)
         throw UsageError("--checkpoint and --resume: --of " + text_of(settings.aim) +
                          " keeps no rows; above:F, rows and pair:A,B do");
-    if (settings.outputs.empty())
+    if (settings.outputs.empty() && settings.heat.output.empty())
         throw UsageError("--checkpoint and --resume keep factors; name a file for them by "
                          "--output");
 }

@@ -27,6 +27,12 @@ struct SkyDivision {
     unsigned steps = 0; ///< of altitude; 0: the patches of Tregenza
 };
 
+/// What `exchange` computes of view factors.
+struct HeatSettings {
+    std::string surfaces, output; ///< paths; empty: no heat is computed
+    std::optional<double> sky_temperature, ground_temperature; ///< [K]
+};
+
 struct ViewFactorSettings {
     SceneSettings scene;
     SolveOptions options; ///< seed, threads
@@ -43,6 +49,7 @@ struct ViewFactorSettings {
     std::optional<Vec3> sun; ///< unit vector in which its light goes
     std::string suns;        ///< file of more of them; empty: none
     std::string sunlit;      ///< path of the table of sunlit fractions; empty: none
+    HeatSettings heat;
     std::vector<std::string> outputs;
     std::string legend; ///< path; empty: none
     Provenance from;    ///< provenance of the files

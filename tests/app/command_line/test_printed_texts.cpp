@@ -34,8 +34,8 @@ TEST_CASE("the manual and all completions know each option of --help") {
     const std::string zsh = place.hemilux("help --print zsh").out;
     const std::string fish = place.hemilux("help --print fish").out;
     std::set<std::string> names;
-    for (const char* const command :
-         {"solve", "bake", "compare", "density", "formfactors", "viewfactors", "info"}) {
+    for (const char* const command : {"solve", "bake", "compare", "density", "formfactors",
+                                      "viewfactors", "exchange", "info"}) {
         const std::string help = place.hemilux(std::string(command) + " --help").out;
         const std::regex declared("\n  (?:-[a-zA-Z],)?--([a-z0-9-]+)");
         for (std::sregex_iterator match(help.begin(), help.end(), declared), end; match != end;
@@ -86,8 +86,8 @@ TEST_CASE("other programs take the printed texts without a complaint") {
 
 TEST_CASE("help is 80 columns wide but for commands to copy") {
     const Workplace place;
-    for (const char* const command :
-         {"", "solve", "bake", "compare", "density", "formfactors", "viewfactors", "info"}) {
+    for (const char* const command : {"", "solve", "bake", "compare", "density", "formfactors",
+                                      "viewfactors", "exchange", "info"}) {
         std::istringstream lines(place.hemilux(std::string(command) + " --help").out);
         for (std::string line; std::getline(lines, line);)
             if (!line.starts_with("  hemilux ")) {

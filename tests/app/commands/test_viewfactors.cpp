@@ -497,3 +497,58 @@ TEST_CASE("viewfactors refuses a dense matrix above a gigabyte before it compute
     place.write("many.obj", many);
     test::check_fails(place, 1, "viewfactors many.obj -o a.npy", "write .npz instead");
 }
+
+TEST_CASE("exchange writes temperatures and heat of surfaces") {
+    const Workplace place;
+    place.write("box.obj", open_box);
+    place.write("known.csv", "surface,emissivity,temperature,flux\nfloor,0.9,310,\nwall*,0.8,,0\n");
+    const std::string run = "exchange box.obj --by group --surfaces known.csv -o h.csv ";
+    const auto outcome = place.hemilux(run + "--sky-temperature 260");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("heat: ") && Contains("wrote h.csv"));
+    const auto table = rows_of(place.read("h.csv"));
+    REQUIRE(table.size() == 1 + 2 + 1);
+    CHECK(table[0] == std::vector<std::string>{"surface", "area", "emissivity", "temperature",
+                                               "temperature_error", "irradiation",
+                                               "irradiation_error", "flux", "flux_error", "heat",
+                                               "heat_error"});
+    // A box that is open above, with insulated walls: the floor gives to the sky by way of both.
+    const double direct = .19982490, to_walls = 1 - direct;
+    const double sigma = 5.670374419e-8, resistance = .1 / .9 + 1 / (direct + to_walls / 2);
+    const double heat = sigma * (std::pow(310, 4) - std::pow(260, 4)) / resistance;
+    CHECK(table[1][0] == "floor");
+    CHECK(std::stod(table[1][9]) == Approx(heat).epsilon(1e-6));
+    CHECK(std::stod(table[2][9]) == 0);
+    CHECK(std::stod(table[2][3]) > 260);
+    CHECK(table[3][0] == "sky");
+    CHECK(std::stod(table[3][9]) == Approx(-heat).epsilon(1e-6));
+
+    const auto fails = [&](int code, const std::string& arguments, const std::string& message) {
+        test::check_fails(place, code, "exchange box.obj --by group " + arguments, message);
+    };
+    fails(1, "--surfaces known.csv -o a.csv", "--sky-temperature: say how warm it is");
+    fails(1, "--surfaces known.csv -o a.csv --sky-temperature -3", "--sky-temperature");
+    fails(1, "--surfaces known.csv", "--output");
+    fails(1, "-o a.csv", "--surfaces");
+    fails(1, "--surfaces known.csv -o ./known.csv", "known.csv");
+    fails(1, "--surfaces known.csv -o a.csv --sky-temperature 3 --of sky", "--of sky");
+    fails(2, "--surfaces none.csv -o a.csv", "none.csv");
+    const auto refuses = [&](const std::string& rows, const std::string& message) {
+        place.write("bad.csv", rows);
+        fails(2, "--surfaces bad.csv -o a.csv --sky-temperature 270", message);
+    };
+    const std::string header = "surface,emissivity,temperature,flux\n";
+    refuses("", "is empty");
+    refuses("surface,emissivity\n", "expected a header");
+    refuses(header + "*,.5,300\n", "expected 4 fields, got 3");
+    refuses(header + "*,1.5,300,\n", "bad.csv:2: expected an emissivity from 0 to 1");
+    refuses(header + "*,,300,\n", "an emissivity");
+    refuses(header + "*,.5,300,0\n", "a temperature or a flux");
+    refuses(header + "*,.5,,\n", "a temperature or a flux");
+    refuses(header + "*,.5,-1,\n", "at least 0 K");
+    refuses(header + "*,.5,warm,\n", "expected a number in column 'temperature'");
+    refuses(header + "*,0,,5\n", "a flux of 0 where the emissivity is 0");
+    refuses(header + "floor,.5,300,\n", "says nothing of the surface 'walls'");
+    refuses(header + "*,.5,300,\nroof,.5,300,\n", "bad.csv:3: no surface is called 'roof'");
+    CHECK_FALSE(place.has("a.csv"));
+}
