@@ -92,7 +92,7 @@ void FactorCheckpoint::attach(FactorScene& scene) {
 void FactorCheckpoint::load(std::span<MeasuredRow> rows) {
     try {
         StateReader state(resumed_->state);
-        hemilux::load(state, rows);
+        load_rows(state, rows);
         state.expect_end();
     } catch (const StateError& error) {
         throw InputError(settings_.checkpoint.resumed,
@@ -130,7 +130,7 @@ void FactorCheckpoint::keep(std::span<const MeasuredRow> rows, bool is_last) {
     report_ = {};
     report_.attempt(path, [&] {
         StateWriter state;
-        save(rows, state);
+        save_rows(rows, state);
         write_checkpoint(path, {.options = options_of(settings_),
                                 .scene = scene_,
                                 .seconds = seconds_before_ + since_start_.seconds(),

@@ -105,7 +105,7 @@ HeatOptions temperatures_of(const ViewFactorSettings& settings) {
             .seed = settings.options.seed};
 }
 
-void append(std::string& line, const Estimate& estimate) {
+void append(std::string& line, const HeatEstimate& estimate) {
     for (const double value : {estimate.value, estimate.error}) {
         line += ',';
         if (!std::isnan(value))
@@ -211,8 +211,8 @@ void write_heat(const ViewFactorSettings& settings, const FactorSurfaces& surfac
         const auto k = static_cast<std::size_t>(open);
         if (!options.open[k])
             continue;
-        const Estimate heat{world_area_of_unit * exchange.open[k].value,
-                            world_area_of_unit * exchange.open[k].error};
+        const HeatEstimate heat{world_area_of_unit * exchange.open[k].value,
+                                world_area_of_unit * exchange.open[k].error};
         std::string line = std::string(name_of(open)) + ",,1,";
         csv::append_number(line, *options.open[k]);
         line += ",0,,,,";

@@ -56,7 +56,8 @@ void StoredZip::write(std::string_view bytes) {
     written_ += bytes.size();
 }
 
-void StoredZip::add(const std::string& name, const std::function<void(const Sink& sink)>& give) {
+void StoredZip::add_given(const std::string& name,
+                          const std::function<void(const Sink& sink)>& give) {
     Entry entry{name, 0, 0, written_};
     give([&entry](std::string_view part) {
         entry.checksum = checksum_of(part, entry.checksum);

@@ -21,10 +21,10 @@ class StoredZip {
     using Sink = std::function<void(std::string_view part)>;
     /// Adds a file of the parts that `give` passes to a sink. It is called twice, as the checksum
     /// comes before the parts, and gives the same both times.
-    void add(const std::string& name, const std::function<void(const Sink& sink)>& give);
+    void add_given(const std::string& name, const std::function<void(const Sink& sink)>& give);
     /// Adds a file of these parts, one after the other.
     void add(const std::string& name, const std::vector<std::string_view>& parts) {
-        add(name, [&](const Sink& sink) { std::ranges::for_each(parts, sink); });
+        add_given(name, [&](const Sink& sink) { std::ranges::for_each(parts, sink); });
     }
     /// Writes the directory and gives the archive its name; nothing can be added afterwards.
     void commit();

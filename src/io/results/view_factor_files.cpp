@@ -87,7 +87,7 @@ void add_array(StoredZip& zip, const std::string& name, const std::string& type,
 template <class ValueOf>
 void add_entries(StoredZip& zip, const std::string& name, const std::string& type,
                  std::uint64_t entries, const FactorTable& table, const ValueOf& value_of) {
-    zip.add(name + ".npy", [&](const StoredZip::Sink& sink) {
+    zip.add_given(name + ".npy", [&](const StoredZip::Sink& sink) {
         sink(npy_header(type, std::to_string(entries) + ","));
         std::string bytes;
         for (std::uint32_t i = 0, rows = row_count(table); i < rows; ++i) {

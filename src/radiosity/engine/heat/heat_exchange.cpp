@@ -202,7 +202,7 @@ Enclosure::Sample Enclosure::sample(std::span<const double> radiosity, std::uint
 }
 
 /// Returns the temperature of a radiation sigma T^4 [K], with its error.
-Estimate temperature_of(const Estimate& radiation) {
+HeatEstimate temperature_of(const HeatEstimate& radiation) {
     if (!(radiation.value >= 0))
         return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
     const double temperature = std::sqrt(std::sqrt(radiation.value / stefan_boltzmann));
@@ -216,7 +216,7 @@ Estimate temperature_of(const Estimate& radiation) {
     return {temperature, std::min(derivative, above)};
 }
 
-SurfaceHeat heat_of(const GreySurface& surface, const Estimate& irradiation) {
+SurfaceHeat heat_of(const GreySurface& surface, const HeatEstimate& irradiation) {
     SurfaceHeat heat{.temperature = {}, .irradiation = irradiation, .flux = {}};
     const double e = surface.emissivity;
     if (surface.temperature) {
@@ -229,7 +229,7 @@ SurfaceHeat heat_of(const GreySurface& surface, const Estimate& irradiation) {
     const double nothing = std::numeric_limits<double>::quiet_NaN();
     heat.temperature =
         e > 0 ? temperature_of({surface.flux / e + irradiation.value, irradiation.error})
-              : Estimate{nothing, nothing};
+              : HeatEstimate{nothing, nothing};
     return heat;
 }
 
@@ -260,7 +260,7 @@ HeatExchange exchange_heat(const ViewFactors& factors, std::span<const GreySurfa
                            const HeatOptions& options, const Workers& workers) {
     const Enclosure enclosure(factors, surfaces, options, workers);
     const std::vector<double> radiosity = enclosure.radiosity();
-    std::vector<Estimate> irradiation(factors.rows());
+    std::vector<HeatEstimate> irradiation(factors.rows());
     HeatExchange exchange;
     for (std::size_t i = 0; i < factors.rows(); ++i) {
         irradiation[i].value = radiosity[i] + enclosure.gain(i, radiosity);
@@ -277,12 +277,12 @@ HeatExchange exchange_heat(const ViewFactors& factors, std::span<const GreySurfa
         for (std::size_t k = 0; k < opens; ++k)
             exchange.open[k].error += sample.open[k] * sample.open[k] / samples;
     }
-    for (Estimate& open : exchange.open)
+    for (HeatEstimate& open : exchange.open)
         open.error = std::sqrt(open.error);
     for (std::size_t i = 0; i < factors.rows(); ++i) {
         irradiation[i].error = std::sqrt(irradiation[i].error);
         constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-        const Estimate unknown{nothing, nothing};
+        const HeatEstimate unknown{nothing, nothing};
         exchange.surfaces.push_back(enclosure.is_fixed(i) ? heat_of(surfaces[i], irradiation[i])
                                                           : SurfaceHeat{unknown, unknown, unknown});
     }

@@ -33,23 +33,23 @@ struct GreySurface {
 };
 
 /// A number and its standard error.
-struct Estimate {
+struct HeatEstimate {
     double value = 0, error = 0;
 };
 
 struct SurfaceHeat {
     /// [K]. NaN where nothing says it, also where emissivity is 0, or no temperature is low enough
     /// to take up the flux that is known.
-    Estimate temperature;
-    Estimate irradiation; ///< what arrives, G [W/m2]
-    Estimate flux;        ///< heat that it gives off [W/m2]
+    HeatEstimate temperature;
+    HeatEstimate irradiation; ///< what arrives, G [W/m2]
+    HeatEstimate flux;        ///< heat that it gives off [W/m2]
 };
 
 struct HeatExchange {
     std::vector<SurfaceHeat> surfaces; ///< by row of the view factors
     /// Heat that sky and ground give to the surfaces, and backs 0 [W/m2 times the unit of area of
     /// the factors].
-    std::array<Estimate, opens> open;
+    std::array<HeatEstimate, opens> open;
 };
 
 struct HeatOptions {

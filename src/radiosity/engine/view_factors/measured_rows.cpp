@@ -55,7 +55,7 @@ PairWork& PairWork::operator+=(const PairWork& other) {
     return *this;
 }
 
-void save(std::span<const MeasuredRow> rows, StateWriter& to) {
+void save_rows(std::span<const MeasuredRow> rows, StateWriter& to) {
     to.add(std::uint64_t{rows.size()});
     for (const MeasuredRow& row : rows) {
         to.add(row.is_measured() ? row.scale : 0.0);
@@ -72,7 +72,7 @@ void save(std::span<const MeasuredRow> rows, StateWriter& to) {
     }
 }
 
-void load(StateReader& from, std::span<MeasuredRow> rows) {
+void load_rows(StateReader& from, std::span<MeasuredRow> rows) {
     if (from.whole() != rows.size())
         throw StateError("the number of rows is not that of the patches");
     for (std::size_t i = 0; i < rows.size(); ++i) {

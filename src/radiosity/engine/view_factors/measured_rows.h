@@ -40,9 +40,9 @@ struct MeasuredRow {
 };
 
 /// Appends those that are measured.
-void save(std::span<const MeasuredRow> rows, StateWriter& to);
+void save_rows(std::span<const MeasuredRow> rows, StateWriter& to);
 
-/// Reads what save() wrote of as many rows. Throws StateError.
-void load(StateReader& from, std::span<MeasuredRow> rows);
+/// Reads what save_rows() wrote of as many rows. Throws StateError.
+void load_rows(StateReader& from, std::span<MeasuredRow> rows);
 
 } // namespace hemilux

@@ -25,7 +25,7 @@ Scene blocks() {
 
 std::string bytes_of(std::span<const MeasuredRow> rows) {
     StateWriter bytes;
-    save(rows, bytes);
+    save_rows(rows, bytes);
     return std::move(bytes).bytes();
 }
 
@@ -47,7 +47,7 @@ TEST_CASE("Rows that are read are those that were written") {
     const std::string bytes = bytes_of(rows);
     std::vector<MeasuredRow> read(4);
     StateReader reader(bytes);
-    load(reader, read);
+    load_rows(reader, read);
     reader.expect_end();
     CHECK(bytes_of(read) == bytes);
     CHECK((read[0].is_measured() && !read[1].is_measured() && read[2].scale == 4));
@@ -55,11 +55,11 @@ TEST_CASE("Rows that are read are those that were written") {
     for (std::size_t length = 0; length < bytes.size(); ++length) {
         std::vector<MeasuredRow> none(4);
         StateReader cut(std::string_view(bytes).substr(0, length));
-        CHECK_THROWS_AS(load(cut, none), StateError);
+        CHECK_THROWS_AS(load_rows(cut, none), StateError);
     }
     std::vector<MeasuredRow> more(5);
     StateReader again(bytes);
-    CHECK_THROWS_AS(load(again, more), StateError);
+    CHECK_THROWS_AS(load_rows(again, more), StateError);
 }
 
 TEST_CASE("Rows that name patches which are not there, or no numbers, are refused") {
@@ -68,7 +68,7 @@ TEST_CASE("Rows that name patches which are not there, or no numbers, are refuse
         spoil(rows);
         const std::string bytes = bytes_of(rows);
         StateReader reader(bytes);
-        CHECK_THROWS_AS(load(reader, read), StateError);
+        CHECK_THROWS_AS(load_rows(reader, read), StateError);
     };
     refuses([](auto& rows) { rows[0].pairs[1].to = 4; });
     refuses([](auto& rows) { rows[0].pairs[1].to = 1; });
@@ -94,7 +94,7 @@ TEST_CASE(
         if (!from.empty())
             options.load = [&](std::span<MeasuredRow> rows) {
                 StateReader reader(from);
-                load(reader, rows);
+                load_rows(reader, rows);
             };
         kept.clear();
         const FoundExchange found =
