@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -63,13 +62,13 @@ double FacingPatches::bound(const Node& node, const FacePlane& face) {
     if (of_group + reach <= 0 || of_face + reach <= 0)
         return 0;
     const Vec3 between = glm::max(glm::abs(d) - half, Vec3(0.0));
-    const double square = glm::dot(between, between);
+    const double distance = glm::length(between) - reach;
+    if (!(distance > 0))
+        return 1;
     const double height_of_group = std::max(of_group, 0.0) + node.max_radius,
                  height_of_face = std::max(of_face, 0.0) + face.radius;
-    const double kernel =
-        square > 0 ? std::min(height_of_group * height_of_face / (square * square), 1 / square)
-                   : std::numeric_limits<double>::infinity();
-    return std::max(face.area, node.max_area) * kernel / std::numbers::pi;
+    return std::max(face.area, node.max_area) * std::min(height_of_group / distance, 1.0) *
+           std::min(height_of_face / distance, 1.0) / (std::numbers::pi * distance * distance);
 }
 
 /// Adds the group of a part of the order, divided at the median along the longest side.

@@ -18,7 +18,7 @@ class FacingPatches {
     explicit FacingPatches(std::span<const FacePlane> faces);
 
     /// Calls use(j) for patches of higher index than i, in no order. Among them are all that do not
-    /// turn away from i and whose rough_exchange() is more than `share` of the smaller of the two
+    /// turn away from i and whose exchange_bound() is more than `share` of the smaller of the two
     /// areas.
     template <class Use>
     void for_each(std::uint32_t i, double share, const Use& use) const {
@@ -48,7 +48,7 @@ class FacingPatches {
     void divide(std::uint32_t begin, std::uint32_t end);
     [[nodiscard]] Node group_of(std::uint32_t begin, std::uint32_t end) const;
 
-    /// Returns what no rough_exchange() of the face with a patch of the group is larger than, as a
+    /// Returns what no exchange_bound() of the face with a patch of the group is larger than, as a
     /// share of the smaller area; 0 where all turn away.
     [[nodiscard]] static double bound(const Node& node, const FacePlane& face);
 

@@ -173,14 +173,17 @@ double free_exchange(const FacePlane& a, const FacePlane& b, Facing facing, Free
     return exchange_area(of_a.outline(), of_b.outline(), std::min(a.area, b.area));
 }
 
-double rough_exchange(const FacePlane& a, const FacePlane& b) {
+double exchange_bound(const FacePlane& a, const FacePlane& b) {
     const Vec3 d = b.centre - a.centre;
-    const double square = glm::dot(d, d), reach = a.radius + b.radius;
+    const double smaller = std::min(a.area, b.area);
+    const double distance = std::sqrt(glm::dot(d, d)) - a.radius - b.radius;
+    if (!(distance > 0))
+        return smaller;
     const double height_b = std::max(glm::dot(d, a.plane.normal), 0.0) + b.radius;
     const double height_a = std::max(-glm::dot(d, b.plane.normal), 0.0) + a.radius;
-    const double bounded = std::max(square, reach * reach);
-    const double kernel = std::min(height_a * height_b / (bounded * bounded), 1 / bounded);
-    return std::min(a.area * b.area * kernel / std::numbers::pi, std::min(a.area, b.area));
+    const double kernel = std::min(height_a / distance, 1.0) * std::min(height_b / distance, 1.0) /
+                          (std::numbers::pi * distance * distance);
+    return std::min(a.area * b.area * kernel, smaller);
 }
 
 } // namespace hemilux

@@ -43,8 +43,8 @@ enum class FreeAccuracy : std::uint8_t {
 [[nodiscard]] double free_exchange(const FacePlane& a, const FacePlane& b, Facing facing,
                                    FreeAccuracy accuracy, double rounding);
 
-/// Returns about the same for 20 nanoseconds: the kernel between the centres with cosines and
-/// distance as they may be elsewhere. It is rather too large than too small.
-[[nodiscard]] double rough_exchange(const FacePlane& a, const FacePlane& b);
+/// Returns what the exchange is not larger than, for 20 nanoseconds: from the least distance that
+/// the circles about the two leave, and the largest heights over each other's planes.
+[[nodiscard]] double exchange_bound(const FacePlane& a, const FacePlane& b);
 
 } // namespace hemilux

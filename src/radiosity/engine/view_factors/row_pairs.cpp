@@ -20,15 +20,15 @@ constexpr std::uint32_t min_pair_rays = 4;
 constexpr std::size_t pair_rays_at_a_time = 65'536;
 
 /// Pairs whose factors are this share of their tolerance are not looked for.
-constexpr double smallest_searched = .3;
+constexpr double smallest_searched = .6;
 
 } // namespace
 
 /// Returns how many rays look for a pair; 0 where it is too small to be looked for.
-std::uint32_t RowPairs::probes_of(double rough, double tolerance) const {
-    if (!(rough > smallest_searched * tolerance))
+std::uint32_t RowPairs::probes_of(double bound, double tolerance) const {
+    if (!(bound > smallest_searched * tolerance))
         return 0;
-    const double wanted = rough / (2 * tolerance);
+    const double wanted = bound / (2 * tolerance);
     return std::clamp(static_cast<std::uint32_t>(std::min(wanted, 1e3)), min_probes, max_probes);
 }
 
@@ -45,7 +45,7 @@ void RowPairs::look_for(std::uint32_t i) {
     unseen_.clear();
     const FacePlane& face = faces_[i];
     const auto add = [&](std::uint32_t j, std::vector<Candidate>& list, std::uint32_t least) {
-        const std::uint32_t probes = probes_of(rough_exchange(face, faces_[j]), tolerance(i, j, 0));
+        const std::uint32_t probes = probes_of(exchange_bound(face, faces_[j]), tolerance(i, j, 0));
         if (probes < least)
             return;
         const Facing facing = hemilux::facing(face, faces_[j], HiddenExchange::plane_rounding);

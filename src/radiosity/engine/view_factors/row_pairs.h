@@ -51,7 +51,7 @@ class RowPairs {
     };
     void look_for(std::uint32_t i);
     void probe(std::uint32_t i, MeasuredRow& row);
-    [[nodiscard]] std::uint32_t probes_of(double rough, double tolerance) const;
+    [[nodiscard]] std::uint32_t probes_of(double bound, double tolerance) const;
     /// Returns the chance that a pair was found by no ray.
     [[nodiscard]] double missed_chance(std::uint32_t i, const Candidate& pair, double exchange,
                                        double share) const;

@@ -26,7 +26,7 @@ Count check_visits(const std::vector<FacePlane>& faces, double share) {
             ++count.all;
             const bool counts =
                 facing(faces[i], faces[j], 1e-9) != Facing::never &&
-                rough_exchange(faces[i], faces[j]) > share * std::min(faces[i].area, faces[j].area);
+                exchange_bound(faces[i], faces[j]) > share * std::min(faces[i].area, faces[j].area);
             count.counting += counts ? 1 : 0;
             if (counts)
                 CHECK(is_visited[j]);
@@ -42,6 +42,30 @@ FacePlane face_at(const Vec3& at, const Vec3& u, const Vec3& v) {
 }
 
 } // namespace
+
+TEST_CASE("No pair exchanges more than its bound, however long or near it is") {
+    Rng random(2);
+    int pairs = 0, near = 0;
+    for (int k = 0; k < 4000; ++k) {
+        const auto face = [&] {
+            const double length = k % 2 == 0 ? 1 : 1e-3;
+            const Vec3 u = random.uniform() * in_box(random);
+            return face_at((k % 3 == 0 ? 6.0 : 1.0) * in_box(random), u,
+                           length * glm::cross(u, in_box(random)));
+        };
+        const FacePlane a = face(), b = face();
+        const Facing facing = hemilux::facing(a, b, 1e-9);
+        if (facing == Facing::never)
+            continue;
+        const double exchange = free_exchange(a, b, facing, FreeAccuracy::exact, 1e-9),
+                     bound = exchange_bound(a, b);
+        CHECK(exchange <= bound * (1 + 1e-9));
+        ++pairs;
+        near += exchange > .05 * bound ? 1 : 0;
+    }
+    CHECK(pairs > 1000);
+    CHECK(near > 100);
+}
 
 TEST_CASE("Groups of patches hold all that face a patch and are large and near enough") {
     Rng random(3);

@@ -161,6 +161,30 @@ TEST_CASE("The escaped share is sky above and ground below") {
     }
 }
 
+TEST_CASE("Long strips that no ray of each other hit are found by rays between them") {
+    for (const double length : {100.0, 1e4, 1e6})
+        for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+            Scene street = test::bare_scene(); // 30 m wide between walls, each of ten strips
+            constexpr int strips = 10;
+            test::add_quad(street, {0, 0, 0}, {30, 0, 0}, {30, length, 0}, {0, length, 0}, strips,
+                           1, 0);
+            test::add_quad(street, {0, 0, 15}, {0, 0, 0}, {0, length, 0}, {0, length, 15}, strips,
+                           1, 0);
+            test::add_quad(street, {30, 0, 0}, {30, 0, 15}, {30, length, 15}, {30, length, 0},
+                           strips, 1, 0);
+            const test::Model model(street);
+            REQUIRE(model.mesh.patches().size() == 3 * strips);
+            std::vector<std::uint32_t> row_of(3 * strips);
+            std::iota(row_of.begin(), row_of.end(), 0u);
+            Monitor monitor;
+            const ViewFactors factors =
+                view_factors(model.mesh, model.bvh, row_of, row_of.size(),
+                             {.rays = 256, .seed = seed}, Workers(1), monitor);
+            CHECK(factors.work.exact_pairs == 3 * strips * strips);
+            CHECK(factors.factor.size() == 6 * strips * strips);
+        }
+}
+
 TEST_CASE("What falls on backs is neither lost nor counted as sky") {
     Scene scene = test::bare_scene();
     test::add_quad(scene, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 1, 1, 0);
