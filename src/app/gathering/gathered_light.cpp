@@ -2,12 +2,12 @@
 
 #include "app/division/default_division.h"
 #include "app/division/whole_error.h"
+#include "app/gathering/gather_rounds.h"
 #include "app/gathering/learn_options.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/stage.h"
 #include "app/terminal/stopwatch.h"
-#include "geometry/elementary.h"
 #include "io/files/error.h"
 #include "io/lightmaps/covered_texels.h"
 #include "io/lightmaps/lightmap_gather.h"
@@ -22,7 +22,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -30,18 +30,11 @@
 namespace hemilux {
 namespace {
 
-/// The shares of the error that what gathers read, and the noise of their rays, may leave.
-constexpr double share_of_read = .7, share_of_noise = .6;
+/// The share of the error that the noise of the rays of points may leave.
+constexpr double share_of_noise = .6;
 
 /// The most points from which the light that all of them read is learned.
 constexpr std::size_t max_learned_points = 65'536;
-
-/// Returns the rays at a point of a picture for an error: 16 for 2 %, and as the inverse square of
-/// the error, by powers of two from 4 to 64.
-unsigned rays_for(double error) {
-    return 1u << static_cast<unsigned>(
-               std::clamp(std::round(4 + 2 * elementary::log2(.02 / error)), 2.0, 6.0));
-}
 
 std::vector<TargetPart> parts_of(std::span<const Sensor> sensors) {
     std::vector<TargetPart> parts;
@@ -51,47 +44,15 @@ std::vector<TargetPart> parts_of(std::span<const Sensor> sensors) {
     return parts;
 }
 
-/// The errors of what is given out.
-struct Errors {
-    ReadError read;               ///< of the light that gathers read
-    double noise = 0;             ///< of their own, relative [-]
-    double noise_uncertainty = 0; ///< one sigma
-    double noise_local = 0;       ///< what 95 of 100 places are within, relative to their light [-]
-    unsigned rays = 0;            ///< at a point, of the last gather
-
-    [[nodiscard]] double whole() const { return elementary::hypot(read.error, noise); }
-    [[nodiscard]] double bound() const {
-        return elementary::hypot(read.bound, noise + noise_uncertainty);
-    }
-    [[nodiscard]] double local() const { return elementary::hypot(read.local, noise_local); }
-    /// Returns whether the error may be larger or smaller than this one.
-    [[nodiscard]] bool is_in_doubt(double limit) const {
-        return bound() > limit && whole() - 2 * uncertainty() <= limit;
-    }
-    [[nodiscard]] double uncertainty() const {
-        return whole() > 0
-                   ? elementary::hypot(read.error * read.uncertainty, noise * noise_uncertainty) /
-                         whole()
-                   : elementary::hypot(read.uncertainty, noise_uncertainty);
-    }
-};
-
-/// Makes the first the mean of both.
-void average(Image& light, const Image& other) {
-    for (std::size_t k = 0; k < light.pixels.size(); ++k)
-        light.pixels[k] = 0.5f * (light.pixels[k] + other.pixels[k]);
-}
-
 class Gathering {
   public:
     Gathering(const SolveSettings& settings, const LitScene& scene, const Solution& solution,
               Monitor& monitor, Statistics& statistics, const std::optional<WholeLight>& whole)
-        : settings_(settings), scene_(scene), solution_(solution), monitor_(monitor),
-          statistics_(statistics), workers_(settings.options.threads),
-          time_(monitor.interrupted.own().wished), limits_(settings.stop),
-          error_(error_of_gathered(settings)), whole_(whole) {
-        light_.cache = std::make_unique<LightCache>(scene.mesh, scene.tracer, solution);
-    }
+        : settings_(settings), scene_(scene), solution_(solution), statistics_(statistics),
+          workers_(settings.options.threads), time_(monitor.interrupted.own().wished),
+          limits_(settings.stop),
+          cache_(std::make_unique<LightCache>(scene.mesh, scene.tracer, solution)),
+          rounds_(settings, solution, *cache_, monitor, statistics, whole) {}
 
     void find_points(std::span<const NamedPoint> points);
     void find_picture(const Camera& camera);
@@ -100,17 +61,9 @@ class Gathering {
     [[nodiscard]] GatheredLight finish();
 
   private:
-    [[nodiscard]] double error_at(double level, double TargetLevel::*of) const;
     [[nodiscard]] bool find_sensors(std::span<const NamedPoint> points);
     void log_end_of_points(std::size_t points) const;
-    [[nodiscard]] ReadError learn(std::span<const TargetPart> target, std::uint64_t seed,
-                                  std::optional<double> seconds = {});
-    ReadError learn_to(double error, std::span<const TargetPart> target, std::uint64_t seed,
-                       std::optional<double> seconds);
-    template <class Gather>
-    Errors gather_until_right(const std::string& what, const ReadError& read, Image& shown,
-                              const Gather& gather, PictureJudge judge);
-    void add(const Errors& errors) {
+    void add(const GatherErrors& errors) {
         if (!errors_ || errors.bound() > errors_->bound())
             errors_ = errors;
     }
@@ -121,132 +74,18 @@ class Gathering {
     const SolveSettings& settings_;
     LitScene scene_;
     const Solution& solution_;
-    Monitor& monitor_;
     Statistics& statistics_;
     Workers workers_;
     PictureTime time_;
     /// The light at points may take as long as the solution may, and the rays that it leaves.
     const StopRule& limits_;
     Stopwatch started_;
-    double error_; ///< that was asked for
-    const std::optional<WholeLight>& whole_;
+    std::unique_ptr<LightCache> cache_;
+    GatherRounds rounds_;
     GatheredLight light_;
-    bool shows_patches_ = false;   ///< some lightmap, after a signal
-    std::optional<Errors> errors_; ///< the larger ones of points and of the picture
+    bool shows_patches_ = false;         ///< some lightmap, after a signal
+    std::optional<GatherErrors> errors_; ///< the larger ones of points and of the picture
 };
-
-/// Returns the relative error that the present target may have, by its own level; 0: unknown yet.
-double Gathering::error_at(double level, double TargetLevel::*of) const {
-    if (!whole_)
-        return error_;
-    const double most = std::max(error_, whole_->own_error);
-    const std::size_t target = light_.levels.size();
-    if (!(level > 0) || target >= whole_->levels.size())
-        return most;
-    return std::clamp(whole_->error * whole_->levels[target].*of / level, error_, most);
-}
-
-/// Learns the light of the next target. How bright a part of the light is there shows itself.
-ReadError Gathering::learn(std::span<const TargetPart> target, std::uint64_t seed,
-                           std::optional<double> seconds) {
-    const double first = error_at(0, &TargetLevel::read);
-    ReadError found = learn_to(first, target, seed, seconds);
-    if (const double then = error_at(found.level, &TargetLevel::read); then < first)
-        found = learn_to(then, target, hash_words({seed}), seconds);
-    return found;
-}
-
-ReadError Gathering::learn_to(double error, std::span<const TargetPart> target, std::uint64_t seed,
-                              std::optional<double> seconds) {
-    LearnOptions options =
-        learn_options(settings_, share_of_read * error, seed, solution_, statistics_);
-    options.seconds = seconds;
-    const Stage stage("learning the light", settings_.verbosity);
-    const Stopwatch watch;
-    const ReadError found = light_.cache->learn(target, options, workers_, monitor_.interrupted);
-    statistics_.rays_learn += found.rays;
-    statistics_.seconds_learn += watch.seconds();
-    return found;
-}
-
-/// Gathers by so many rays at a point, and has what was given out judged. gather(rays, round,
-/// alone) returns the light by a round of rays of its own. Where the error is too large, it is
-/// gathered by as many rays once more, and the mean of both is given out; then in the same way with
-/// twice as many rays as there were. Once that does not help, each place at which light changes
-/// fast gathers by itself: then most of the error lies between the points of the grid, as in small
-/// pictures. Where the error itself is asked for, more pixels are judged. A part of the light need
-/// not be surely as exact as it may be, as its error is told.
-template <class Gather>
-Errors Gathering::gather_until_right(const std::string& what, const ReadError& read, Image& shown,
-                                     const Gather& gather, PictureJudge judge) {
-    constexpr unsigned max_rays = 256;
-    constexpr std::uint64_t usual_pixels = 512, max_more = 64;
-    constexpr double helps = .85;
-    Errors errors{read};
-    std::uint64_t judged = 1; // by so many times the usual pixels
-    double asked = error_at(0, &TargetLevel::shown), level = 0;
-    const auto judge_by = [&](std::uint64_t more) {
-        judged = more;
-        const Stage stage("judging the " + what, settings_.verbosity);
-        const Stopwatch watch;
-        const PictureError own = judge.error_of(shown, usual_pixels * more, workers_);
-        statistics_.rays_learn += own.rays;
-        statistics_.seconds_learn += watch.seconds();
-        errors.noise = own.error;
-        errors.noise_uncertainty = own.uncertainty;
-        errors.noise_local = own.local;
-        level = own.level;
-        asked = error_at(level, &TargetLevel::shown);
-    };
-    double before = std::numeric_limits<double>::infinity();
-    bool alone = false;
-    unsigned rays = settings_.gather.value_or(rays_for(asked)); // of the next round
-    for (unsigned round = 0;; ++round) {
-        try {
-            const Stage stage("gathering the " + what, settings_.verbosity);
-            const Stopwatch watch;
-            Image light = gather(rays, round, alone);
-            errors.rays = rays;
-            if (round % 2 == 1) {
-                average(light, shown);
-                errors.rays *= 2;
-            }
-            shown = std::move(light);
-            statistics_.seconds_gather += watch.seconds();
-        } catch (const Interrupted&) {
-            if (round == 0)
-                throw;
-            break; // the rounds before it are given out
-        }
-        judge_by(1);
-        // Few pixels may happen to hold much: more of them cost less than to gather again, the more
-        // so by more rays.
-        const std::uint64_t many = round == 0 ? 16 : max_more;
-        for (std::uint64_t more = 4; more <= many && !whole_ && errors.is_in_doubt(asked);
-             more *= 4)
-            judge_by(more);
-        log_line(settings_.verbosity, Verbosity::verbose,
-                 what + " by " + counted(errors.rays, "ray", "rays") +
-                     " a point: its own error is " + percent(errors.noise) +
-                     ", that of the light which it reads " + percent(errors.read.error));
-        if (settings_.gather || (whole_ ? errors.whole() : errors.bound()) <= asked ||
-            2 * errors.rays > max_rays || !(errors.read.bound <= asked) || monitor_.interrupted)
-            break;
-        if (errors.noise > helps * before && std::exchange(alone, true))
-            break;
-        before = errors.noise;
-        rays = round % 2 == 0 ? errors.rays : 2 * errors.rays;
-    }
-    const double accuracy = settings_.error_accuracy;
-    for (std::uint64_t more = 4 * judged;
-         accuracy > 0 && more <= max_more && !monitor_.interrupted &&
-         errors.noise * errors.noise_uncertainty > accuracy * errors.whole() * errors.whole();
-         more *= 4)
-        judge_by(more);
-    light_.levels.push_back({read.level, level});
-    add(errors);
-    return errors;
-}
 
 /// Finds the faces that points lie on. Returns whether it came to the end before a signal.
 bool Gathering::find_sensors(std::span<const NamedPoint> points) {
@@ -302,11 +141,11 @@ void Gathering::find_points(std::span<const NamedPoint> points) {
     const Stage stage("gathering at points", settings_.verbosity);
     if (!find_sensors(points))
         return;
-    Errors errors{learn(parts_of(light_.sensors), seed_of(3), limits_.seconds)};
+    GatherErrors errors{rounds_.learn(parts_of(light_.sensors), seed_of(3), limits_.seconds)};
     const Stopwatch watch;
     // The noise of few points is hardly known, and so its bound is larger.
     const double in_doubt = 1 + 1 / std::sqrt(double(std::max<std::size_t>(points.size(), 1)));
-    const double error = error_at(errors.read.level, &TargetLevel::read);
+    const double error = rounds_.error_of_read(errors.read.level);
     PointLightOptions options{.noise = share_of_noise * error / in_doubt,
                               .read_error =
                                   std::isfinite(errors.read.error) ? errors.read.error : 0,
@@ -321,13 +160,13 @@ void Gathering::find_points(std::span<const NamedPoint> points) {
         options.patience = default_patience;
     if (settings_.gather)
         options.rays = PointSettings::rays_per_gather_ray * *settings_.gather;
-    light_.points = light_at(light_.sensors, scene_.mesh, scene_.tracer, light_.cache->light(),
-                             options, workers_);
+    light_.points =
+        light_at(light_.sensors, scene_.mesh, scene_.tracer, cache_->light(), options, workers_);
     log_end_of_points(points.size());
     errors.noise = light_.points.noise;
     errors.noise_uncertainty = light_.points.noise_uncertainty;
     errors.noise_local = light_.points.noise_local;
-    light_.levels.push_back({errors.read.level, 0});
+    rounds_.end_target({errors.read.level, 0});
     statistics_.rays_gather += light_.points.rays;
     statistics_.seconds_learn += watch.seconds();
     add(errors);
@@ -337,13 +176,13 @@ void Gathering::find_picture(const Camera& camera) {
     const Mesh& mesh = scene_.mesh;
     const auto [width, height] = settings_.view.size;
     const CameraRays rays(camera, mesh, double(width) / height);
-    const ReadError read = learn(
+    const ReadError read = rounds_.learn(
         picture_parts(mesh, scene_.tracer, rays, width, height, seed_of(6), workers_), seed_of(5));
     RenderOptions options = picture_options(settings_.view.size, settings_.options.threads, time_);
     options.slope = solution_.slope;
-    options.cells = &light_.cache->cells();
+    options.cells = &cache_->cells();
     Image picture;
-    gather_until_right(
+    add(rounds_.gather(
         "picture", read, picture,
         [&](unsigned of_point, unsigned round, bool alone) {
             options.coarse_rays = alone ? 4 * of_point : 0;
@@ -351,8 +190,7 @@ void Gathering::find_picture(const Camera& camera) {
             options.gather_round = round;
             return render_view(scene_, camera, options);
         },
-        judge_of_pictures(mesh, scene_.tracer, light_.cache->light(), rays, width, height,
-                          seed_of(7)));
+        judge_of_pictures(mesh, scene_.tracer, cache_->light(), rays, width, height, seed_of(7))));
     light_.picture = std::move(picture);
 }
 
@@ -360,7 +198,7 @@ void Gathering::find_picture(const Camera& camera) {
 void Gathering::find_lightmap(const NamedLayout& named) {
     const auto& [object, layout] = named;
     const Mesh& mesh = scene_.mesh;
-    const SurfaceLight& light = light_.cache->light();
+    const SurfaceLight& light = cache_->light();
     const auto seed = [&](std::uint64_t use) {
         return light_.lightmaps.empty() ? seed_of(use)
                                         : hash_words({seed_of(use), light_.lightmaps.size()});
@@ -376,9 +214,9 @@ void Gathering::find_lightmap(const NamedLayout& named) {
     try {
         const std::vector<bool> covered =
             find_covered(mesh, scene_.tracer, texels, options.check, workers_);
-        const ReadError read =
-            learn(lightmap_parts(mesh, texels, covered, settings_.bake, seed(10)), seed(11));
-        const Errors errors = gather_until_right(
+        const ReadError read = rounds_.learn(
+            lightmap_parts(mesh, texels, covered, settings_.bake, seed(10)), seed(11));
+        const GatherErrors errors = rounds_.gather(
             object.empty() ? "lightmap" : "lightmap of " + object, read, found.image,
             [&](unsigned of_point, unsigned round, bool) {
                 options.rays = of_point;
@@ -390,6 +228,7 @@ void Gathering::find_lightmap(const NamedLayout& named) {
             },
             judge_of_lightmaps(mesh, scene_.tracer, light, texels, covered, settings_.bake,
                                seed(12)));
+        add(errors);
         if (!object.empty())
             statistics_.objects.push_back(
                 {object, static_cast<std::uint64_t>(std::ranges::count(found.known, true)),
@@ -407,6 +246,8 @@ void Gathering::find_lightmap(const NamedLayout& named) {
 }
 
 GatheredLight Gathering::finish() {
+    light_.cache = std::move(cache_);
+    light_.levels = rounds_.levels();
     if (errors_)
         light_.error = errors_->whole();
     if (errors_ && gives_gathered_light(settings_)) {

@@ -2,6 +2,7 @@
 // The light of outputs for which it is gathered: pictures, lightmaps and points. It is learned
 // until its error is as asked for (light_cache.h), then gathered.
 
+#include "app/gathering/gather_rounds.h"
 #include "app/gathering/lightmap_layout.h"
 #include "app/rendering/view.h"
 #include "app/settings/settings.h"
@@ -22,12 +23,6 @@
 
 namespace hemilux {
 
-/// How bright a target is: RMS over its places and channels [W/m2].
-struct TargetLevel {
-    double read = 0;  ///< light that gathers there read
-    double shown = 0; ///< light that a picture or lightmap shows
-};
-
 struct GatheredLight {
     std::unique_ptr<LightCache> cache; ///< empty: nothing is gathered
     std::vector<Sensor> sensors;       ///< by point of --points
@@ -37,13 +32,6 @@ struct GatheredLight {
     std::vector<TargetLevel> levels; ///< of points, lightmaps and the picture, as far as asked for
     /// The relative error, the largest of what is given out [-]; NaN where it is not known.
     double error = std::numeric_limits<double>::quiet_NaN();
-};
-
-/// The whole light of which only a part is gathered.
-struct WholeLight {
-    std::span<const TargetLevel> levels; ///< GatheredLight::levels
-    double error;     ///< that the part may have, relative to the whole light of a target [-]
-    double own_error; ///< that it may have at most, relative to its own light [-]
 };
 
 /// A lightmap to be gathered, of an object of this name or, without one, of all.
