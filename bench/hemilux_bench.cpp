@@ -8,9 +8,10 @@
 // fastest is taken (single rays, packets of 4, 8 and 16, streams; either coherence flag; medium and
 // high quality; quads as quads or as two triangles), which a few rounds find out before the race;
 // `robust` is the fastest of its watertight mode. `shadow`: whether anything lies between two
-// points. `count`: all facets on each ray, of Embree by filters that refuse them, where their
-// counts agree. `build` is beside its medium quality. Embree may use the instruction set that
-// hemilux uses, which HEMILUX_KERNELS chooses, and which each row names.
+// points; hemilux leaves out the facets of both, as solvers do. `count`: all facets on each ray, of
+// Embree by filters that refuse them, where their counts agree. `build` is beside its medium
+// quality. Embree may use the instruction set that hemilux uses, which HEMILUX_KERNELS chooses, and
+// which each row names.
 #include "bvh/wide/wide_bvh.h"
 #include "io/scene_files/obj.h"
 #include "rays.h"
@@ -260,11 +261,11 @@ class Course {
         add(work, 1024, rays.size(), fastest_of_rounds(variants, settings_.rounds), way);
     }
 
-    void shadow(std::span<const Ray> rays) const {
-        const std::vector<std::uint32_t> targets(rays.size(), none);
+    void shadow(const ShadowRaySet& set) const {
+        const auto& [rays, targets] = set;
         std::vector<std::uint8_t> blocked(rays.size());
         std::vector<std::function<void()>> variants{
-            [&] { bvh_->occluded_stream(rays, targets, blocked); }};
+            [&] { bvh_->occluded_stream(set.rays, set.targets, blocked); }};
         std::string way;
 #if defined(HEMILUX_EMBREE)
         const EmbreeRays theirs(rays, start_of_theirs);

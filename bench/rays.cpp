@@ -86,7 +86,7 @@ RaySet make_rays(const Mesh& mesh, std::size_t per_patch, std::size_t total) {
     return set;
 }
 
-std::vector<Ray> make_shadow_rays(const Mesh& mesh, const RaySet& set) {
+ShadowRaySet make_shadow_rays(const Mesh& mesh, const RaySet& set) {
     std::vector<Vec3> normal(mesh.soup().facets.size(), Vec3(0.0));
     for (const Patch& patch : mesh.patches())
         normal[patch.facet] = patch.normal;
@@ -94,18 +94,20 @@ std::vector<Ray> make_shadow_rays(const Mesh& mesh, const RaySet& set) {
     constexpr std::size_t tries = 4; // a ray, in the mean
     Rng rng(2);
     const std::vector<Ray>& from = set.shuffled;
-    std::vector<Ray> shadow;
-    for (std::size_t k = 0; k < tries * from.size() && shadow.size() < from.size(); ++k) {
+    ShadowRaySet shadow;
+    for (std::size_t k = 0; k < tries * from.size() && shadow.rays.size() < from.size(); ++k) {
         const Ray& a = from[k % from.size()];
         const Ray& b = from[static_cast<std::size_t>(rng.uniform() * double(from.size()))];
         const Vec3 way = b.origin - a.origin;
         const double length = glm::length(way);
         if (glm::dot(normal[a.from], way) > grazing * length &&
-            glm::dot(normal[b.from], way) < -grazing * length)
-            shadow.push_back({.origin = a.origin,
-                              .direction = way / length,
-                              .t_max = end * length,
-                              .from = a.from});
+            glm::dot(normal[b.from], way) < -grazing * length) {
+            shadow.rays.push_back({.origin = a.origin,
+                                   .direction = way / length,
+                                   .t_max = end * length,
+                                   .from = a.from});
+            shadow.targets.push_back(b.from);
+        }
     }
     return shadow;
 }

@@ -5,8 +5,8 @@
 #include "bvh/wide/wide_layout.h"
 #include "geometry/box.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace hemilux::wide {
 
@@ -24,27 +24,21 @@ enum class Fit {
     too_far ///< origin so far away that even doubles round coarsely: every facet is tried
 };
 
-[[nodiscard]] Fit scale_ray(const Ray& ray, const Space& space, FloatRay& scaled);
-
 /// This bounds the error of a scaled distance, apart from the distance's own rounding.
 inline constexpr double distance_slack = 0x1p-30;
 
-/// Return certain lower and upper bounds of a distance in scaled units, which may be infinite.
-[[nodiscard]] inline float below(const FloatRay& scaled, double t) {
-    const double at = (t - scaled.skipped) * scaled.per_unit;
-    return static_cast<float>(std::isinf(at) ? at : at - std::abs(at) * 0x1p-22 - distance_slack);
-}
-[[nodiscard]] inline float above(const FloatRay& scaled, double t) {
-    const double at = (t - scaled.skipped) * scaled.per_unit;
-    return static_cast<float>(at + std::abs(at) * 0x1p-22 + distance_slack);
-}
+/// The kernels' t is (t - skipped) * per_unit.
+struct Scaling {
+    double skipped = 0, per_unit = 1;
 
-/// Returns the nearest hit of a ray that has met nothing yet.
-[[nodiscard]] inline Nearest nothing_before(const FloatRay& scaled, double t_max) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    if (t_max == infinity) // so are its bounds, which take longer to find
-        return {infinity, infinity, no_facet, 0};
-    return {below(scaled, t_max), above(scaled, t_max), no_facet, 0};
-}
+    /// Returns certain bounds of a distance in scaled units, which belongs to `slot`.
+    [[nodiscard]] Nearest bounds(double t, std::uint32_t slot, std::uint32_t front) const {
+        const double at = std::min((t - skipped) * per_unit, double{farthest});
+        const double error = std::abs(at) * 0x1p-22 + distance_slack;
+        return {static_cast<float>(at - error), static_cast<float>(at + error), slot, front};
+    }
+};
+
+[[nodiscard]] Fit scale_ray(const Ray& ray, const Space& space, FloatRay& scaled, Scaling& scaling);
 
 } // namespace hemilux::wide

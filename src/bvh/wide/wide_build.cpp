@@ -121,12 +121,21 @@ class Builder {
             children[widest] = halves[0];
             children[count] = halves[1];
         }
-        // The children are in the order of the items, so that neighbours in space lie together in
+        // A child is the likelier to stop a ray the larger it is: the largest is the last, which
+        // rays that end at any hit visit first.
+        const auto surface_and_place = [](const Range& child) {
+            return std::pair(child.box.half_area(), child.begin);
+        };
+        std::sort(children.begin(), children.begin() + count, [&](const Range& a, const Range& b) {
+            return surface_and_place(a) < surface_and_place(b);
+        });
+        // They are made in the order of the items, so that neighbours in space lie together in
         // memory.
-        std::sort(children.begin(), children.begin() + count,
-                  [](const Range& a, const Range& b) { return a.begin < b.begin; });
-        for (unsigned c = 0; c < width; ++c)
-            set_child(part, node, c, c < count ? children[c] : Range{}, depth, upper);
+        std::array<unsigned, width> order{0, 1, 2, 3, 4, 5, 6, 7};
+        std::sort(order.begin(), order.begin() + count,
+                  [&](unsigned a, unsigned b) { return children[a].begin < children[b].begin; });
+        for (const unsigned c : order)
+            set_child(part, node, c, children[c], depth, upper);
         set_order(part.nodes[node], children);
     }
 

@@ -16,12 +16,14 @@ using wide::Fit;
 using wide::flag;
 using wide::FloatRay;
 using wide::Nearest;
+using wide::Scaling;
 
-/// The data that the exact test needs to decide in doubles.
+/// The rays that are asked about, and what is needed to decide in doubles.
 struct Query {
     const FacetSoup& soup;
+    const wide::Space& space;
     std::span<const Ray> rays;
-    std::span<const FloatRay> scaled;
+    std::vector<unsigned> too_far = {}; ///< rays that the kernels cannot trace
 
     template <EdgeRule rule>
     bool hit(unsigned k, std::uint32_t facet, double t_max, Hit& hit) const {
@@ -31,6 +33,16 @@ struct Query {
         return hit_facet<rule>(soup.vertices, soup.facets[facet], sheared, ray.t_min, t_max, hit);
     }
 };
+
+bool load(void* context, unsigned k, FloatRay& scaled, Nearest& end) {
+    Query& query = *static_cast<Query*>(context);
+    Scaling scaling;
+    const Fit fit = scale_ray(query.rays[k], query.space, scaled, scaling);
+    if (fit == Fit::too_far)
+        query.too_far.push_back(k);
+    end = scaling.bounds(query.rays[k].t_max, wide::no_facet, 0);
+    return fit == Fit::good;
+}
 
 /// Decides which hit is closer. The nearest so far is computed again too: this happens so seldom
 /// that keeping it costs more.
@@ -43,9 +55,12 @@ void closer(void* context, unsigned k, std::uint32_t slot, Nearest& nearest) {
     if (query.hit<EdgeRule::inclusive>(k, slot & ~flag, best.t, hit) &&
         comes_before(hit.t, hit.facet, best))
         best = hit;
-    if (best.facet != none)
-        nearest = {below(query.scaled[k], best.t), above(query.scaled[k], best.t), best.facet,
-                   best.front};
+    if (best.facet == none)
+        return;
+    FloatRay scaled;
+    Scaling scaling;
+    (void)scale_ray(query.rays[k], query.space, scaled, scaling);
+    nearest = scaling.bounds(best.t, best.facet, best.front);
 }
 
 bool hits(void* context, unsigned k, std::uint32_t slot) {
@@ -63,13 +78,7 @@ bool counts(void* context, unsigned k, std::uint32_t slot) {
            hit.second_half == ((slot & flag) != 0);
 }
 
-FacetHit hit_record(const Nearest& nearest) {
-    if (nearest.slot == wide::no_facet)
-        return {};
-    return {nearest.slot & ~flag, nearest.front != 0};
-}
-
-wide::ExactTest exact(Query& query) { return {&query, closer, hits, counts}; }
+wide::RayQuery ray_query(Query& query) { return {&query, load, closer, hits, counts}; }
 
 } // namespace
 
@@ -81,41 +90,39 @@ WideBvh::WideBvh(const FacetSoup& soup, const WideBvhOptions& options)
 }
 
 std::optional<Hit> WideBvh::closest(const Ray& ray) const {
-    FloatRay scaled;
-    const Fit fit = fit_ray(ray, scaled);
-    if (fit == Fit::too_far)
-        return BruteForce(soup_).closest(ray);
-    if (fit == Fit::misses)
+    if (built_.leaves.size() == 0)
         return std::nullopt;
-    Query query{soup_, {&ray, 1}, {&scaled, 1}};
-    Nearest nearest = nothing_before(scaled, ray.t_max);
-    kernels_->closest(tree(), scaled, 0, nearest, exact(query));
+    Query query{soup_, space_, {&ray, 1}};
+    FloatRay scaled;
+    Nearest nearest;
+    if (load(&query, 0, scaled, nearest))
+        kernels_->closest(tree(), scaled, nearest, ray_query(query));
+    else if (!query.too_far.empty())
+        return BruteForce(soup_).closest(ray);
     return nearest.slot == wide::no_facet ? std::nullopt
                                           : std::optional(locate(ray, nearest.slot & ~flag));
 }
 
 bool WideBvh::occluded(const Ray& ray, std::uint32_t target) const {
-    FloatRay scaled;
-    const Fit fit = fit_ray(ray, scaled);
-    if (fit == Fit::too_far)
-        return BruteForce(soup_).occluded(ray, target);
-    if (fit == Fit::misses)
+    if (built_.leaves.size() == 0)
         return false;
-    Query query{soup_, {&ray, 1}, {&scaled, 1}};
-    return kernels_->occluded(tree(), scaled, 0, below(scaled, ray.t_max), above(scaled, ray.t_max),
-                              target, exact(query));
+    Query query{soup_, space_, {&ray, 1}};
+    FloatRay scaled;
+    Nearest end;
+    if (load(&query, 0, scaled, end))
+        return kernels_->occluded(tree(), scaled, end, target, ray_query(query));
+    return !query.too_far.empty() && BruteForce(soup_).occluded(ray, target);
 }
 
 std::uint32_t WideBvh::count(const Ray& ray) const {
-    FloatRay scaled;
-    const Fit fit = fit_ray(ray, scaled);
-    if (fit == Fit::too_far)
-        return BruteForce(soup_).count(ray);
-    if (fit == Fit::misses)
+    if (built_.leaves.size() == 0)
         return 0;
-    Query query{soup_, {&ray, 1}, {&scaled, 1}};
-    return kernels_->count(tree(), scaled, 0, below(scaled, ray.t_max), above(scaled, ray.t_max),
-                           exact(query));
+    Query query{soup_, space_, {&ray, 1}};
+    FloatRay scaled;
+    Nearest end;
+    if (load(&query, 0, scaled, end))
+        return kernels_->count(tree(), scaled, end, ray_query(query));
+    return query.too_far.empty() ? 0 : BruteForce(soup_).count(ray);
 }
 
 Hit WideBvh::locate(const Ray& ray, std::uint32_t facet) const {
@@ -216,83 +223,46 @@ wide::Tree WideBvh::tree() const {
             built_.quality.bytes > cache};
 }
 
-Fit WideBvh::fit_ray(const Ray& ray, FloatRay& scaled) const {
-    return built_.leaves.size() == 0 ? Fit::misses : scale_ray(ray, space_, scaled);
-}
-
-/// Some rays of a stream, ready for the kernels. Those that the kernels cannot trace end before
-/// they begin.
-struct WideBvh::Block {
-    static constexpr std::size_t size = 256;
-
-    std::array<FloatRay, size> scaled;
-    std::array<Nearest, size> nearest;
-    std::array<Fit, size> fit;
-
-    Block(const WideBvh& bvh, std::span<const Ray> rays) {
-        for (std::size_t k = 0; k < rays.size(); ++k) {
-            fit[k] = bvh.fit_ray(rays[k], scaled[k]);
-            if (fit[k] == Fit::good) {
-                nearest[k] = nothing_before(scaled[k], rays[k].t_max);
-            } else {
-                scaled[k] = {};
-                nearest[k] = {-1, -1, wide::no_facet, 0};
-            }
-        }
-    }
-};
-
 void WideBvh::closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const {
-    if (built_.leaves.size() == 0) {
-        std::fill_n(out.begin(), rays.size(), FacetHit{});
+    std::fill_n(out.begin(), rays.size(), FacetHit{});
+    if (built_.leaves.size() == 0)
         return;
-    }
-    for (; !rays.empty(); rays = rays.subspan(std::min(rays.size(), Block::size))) {
-        const auto now = rays.first(std::min(rays.size(), Block::size));
-        Block block(*this, now);
-        Query query{soup_, now, block.scaled};
-        kernels_->closest_stream(tree(), block.scaled.data(), static_cast<unsigned>(now.size()),
-                                 block.nearest.data(), exact(query));
+    std::array<wide::FirstHit, 1024> hits;
+    for (std::size_t begin = 0; begin < rays.size(); begin += hits.size()) {
+        const auto now = rays.subspan(begin, std::min(rays.size() - begin, hits.size()));
+        std::fill_n(hits.begin(), now.size(), wide::FirstHit{wide::no_facet, 0});
+        Query query{soup_, space_, now};
+        kernels_->closest_stream(tree(), ray_query(query), static_cast<unsigned>(now.size()),
+                                 hits.data());
         for (std::size_t k = 0; k < now.size(); ++k)
-            out[k] = block.fit[k] == Fit::too_far ? facet_hit(closest(now[k]))
-                                                  : hit_record(block.nearest[k]);
-        out = out.subspan(now.size());
+            if (hits[k].slot != wide::no_facet)
+                out[begin + k] = {hits[k].slot & ~flag, hits[k].front != 0};
+        for (const unsigned k : query.too_far)
+            out[begin + k] = facet_hit(BruteForce(soup_).closest(now[k]));
     }
 }
 
 void WideBvh::occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
                               std::span<std::uint8_t> out) const {
-    if (built_.leaves.size() == 0) {
-        std::fill_n(out.begin(), rays.size(), std::uint8_t{0});
+    std::fill_n(out.begin(), rays.size(), std::uint8_t{0});
+    if (built_.leaves.size() == 0)
         return;
-    }
-    for (std::size_t begin = 0; begin < rays.size(); begin += Block::size) {
-        const auto now = rays.subspan(begin, std::min(rays.size() - begin, Block::size));
-        Block block(*this, now);
-        Query query{soup_, now, block.scaled};
-        kernels_->occluded_stream(tree(), block.scaled.data(), static_cast<unsigned>(now.size()),
-                                  block.nearest.data(), &targets[begin], &out[begin], exact(query));
-        for (std::size_t k = 0; k < now.size(); ++k)
-            if (block.fit[k] == Fit::too_far)
-                out[begin + k] = occluded(now[k], targets[begin + k]);
-    }
+    Query query{soup_, space_, rays};
+    kernels_->occluded_stream(tree(), ray_query(query), static_cast<unsigned>(rays.size()),
+                              targets.data(), out.data());
+    for (const unsigned k : query.too_far)
+        out[k] = BruteForce(soup_).occluded(rays[k], targets[k]);
 }
 
 void WideBvh::count_stream(std::span<const Ray> rays, std::span<std::uint32_t> out) const {
-    if (built_.leaves.size() == 0) {
-        std::fill_n(out.begin(), rays.size(), 0u);
+    std::fill_n(out.begin(), rays.size(), 0u);
+    if (built_.leaves.size() == 0)
         return;
-    }
-    for (std::size_t begin = 0; begin < rays.size(); begin += Block::size) {
-        const auto now = rays.subspan(begin, std::min(rays.size() - begin, Block::size));
-        Block block(*this, now);
-        Query query{soup_, now, block.scaled};
-        kernels_->count_stream(tree(), block.scaled.data(), static_cast<unsigned>(now.size()),
-                               block.nearest.data(), &out[begin], exact(query));
-        for (std::size_t k = 0; k < now.size(); ++k)
-            if (block.fit[k] == Fit::too_far)
-                out[begin + k] = count(now[k]);
-    }
+    Query query{soup_, space_, rays};
+    kernels_->count_stream(tree(), ray_query(query), static_cast<unsigned>(rays.size()),
+                           out.data());
+    for (const unsigned k : query.too_far)
+        out[k] = BruteForce(soup_).count(rays[k]);
 }
 
 } // namespace hemilux

@@ -44,8 +44,6 @@ class WideBvh final : public Tracer {
     [[nodiscard]] const BvhQuality& quality() const { return built_.quality; }
 
   private:
-    struct Block;
-    [[nodiscard]] wide::Fit fit_ray(const Ray& ray, wide::FloatRay& scaled) const;
     [[nodiscard]] wide::Tree tree() const;
 
     FacetSoup soup_;

@@ -23,7 +23,8 @@ inline constexpr std::uint32_t no_facet = 0xffffffffu;
 inline constexpr std::uint32_t flag = 0x80000000u; ///< child: a leaf; slot: second half of a quad
 
 /// An inner node. Planes are ordered low x, high x, low y, high y, low z, high z. An absent child's
-/// box is inverted, so that nothing meets it.
+/// box is inverted, so that nothing meets it. The others are in the order of their surfaces, the
+/// largest last.
 struct alignas(64) Node {
     float plane[6][width];
     std::uint32_t child[width]; ///< index of a node, or of a leaf with `flag`
@@ -51,15 +52,26 @@ struct Tree {
 inline constexpr unsigned max_depth = 40;
 inline constexpr unsigned stack_size = (width - 1) * max_depth + 1;
 
-/// A ray as the kernels see it: |component of direction| <= 1 and the largest at least 1/2. It
-/// fills a line of the cache.
-struct alignas(64) FloatRay {
+/// A ray as the box tests see it: a plane p is met at p * inverse + offset.
+struct SlabRay {
+    using Byte = unsigned char; // so that a state's head fits a line of the cache
+
+    float inverse[3], offset[3]; ///< never infinite
+    Byte octant;                 ///< bit i: component i of the direction is negative
+    Byte near[3], far[3];        ///< places in a node of the planes met first and last
+};
+
+/// A ray as the kernels see it: |component of direction| <= 1 and the largest at least 1/2.
+struct FloatRay {
+    SlabRay slabs;
     float origin[3], direction[3];
-    float inverse[3];            ///< inverse direction, never infinite
+    float reach;                 ///< bounds the components of the origin and of what it may be off
     float t_min_low, t_min_high; ///< certain bounds
     std::uint32_t from;
-    double skipped, per_unit; ///< the kernels' t is (t - skipped) * per_unit
 };
+
+/// No ray meets anything at this distance in scaled units or farther.
+inline constexpr float farthest = 16;
 
 /// Certain bounds of the nearest distance so far, in scaled units, and the slot that it belongs to.
 struct Nearest {
@@ -68,9 +80,18 @@ struct Nearest {
     std::uint32_t front;
 };
 
-/// Decides in doubles what the kernels are uncertain of. `ray` counts within the query.
-struct ExactTest {
+/// The slot that a ray hits first; no_facet: none.
+struct FirstHit {
+    std::uint32_t slot, front;
+};
+
+/// The rays of a query, and what decides in doubles what the kernels are uncertain of. `ray` counts
+/// within the query.
+struct RayQuery {
     void* query;
+    /// Sets a ray and the bounds of its farthest distance; returns false if it hits nothing or if
+    /// it is one that the kernels cannot trace.
+    bool (*load)(void* query, unsigned ray, FloatRay&, Nearest& end);
     /// Updates `nearest` with a slot that may be hit.
     void (*closer)(void* query, unsigned ray, std::uint32_t slot, Nearest& nearest);
     /// Return whether a slot is hit (inclusive edges), and whether it counts (half-open edges).
@@ -78,21 +99,19 @@ struct ExactTest {
     bool (*counts)(void* query, unsigned ray, std::uint32_t slot);
 };
 
-/// The kernels of one instruction set. In the streams the exact test knows a ray by its place.
+/// The kernels of one instruction set. Those of one ray take it loaded; the streams load `count`
+/// rays themselves, answer for ray k in element k, and leave what belongs to others as it is.
 struct Kernels {
-    void (*closest)(const Tree&, const FloatRay&, unsigned ray, Nearest&, const ExactTest&);
-    bool (*occluded)(const Tree&, const FloatRay&, unsigned ray, float t_low, float t_high,
-                     std::uint32_t target, const ExactTest&);
-    std::uint32_t (*count)(const Tree&, const FloatRay&, unsigned ray, float t_low, float t_high,
-                           const ExactTest&);
-    void (*closest_stream)(const Tree&, const FloatRay* rays, unsigned count, Nearest*,
-                           const ExactTest&);
-    /// t[k] bounds the farthest distance of ray k; blocked[k] becomes 0 or 1.
-    void (*occluded_stream)(const Tree&, const FloatRay* rays, unsigned count, const Nearest* t,
-                            const std::uint32_t* targets, std::uint8_t* blocked, const ExactTest&);
-    /// t[k] bounds the farthest distance of ray k; pierced[k] becomes the number of facets on it.
-    void (*count_stream)(const Tree&, const FloatRay* rays, unsigned count, const Nearest* t,
-                         std::uint32_t* pierced, const ExactTest&);
+    void (*closest)(const Tree&, const FloatRay&, Nearest&, const RayQuery&);
+    bool (*occluded)(const Tree&, const FloatRay&, const Nearest& end, std::uint32_t target,
+                     const RayQuery&);
+    std::uint32_t (*count)(const Tree&, const FloatRay&, const Nearest& end, const RayQuery&);
+    void (*closest_stream)(const Tree&, const RayQuery&, unsigned count, FirstHit*);
+    /// blocked[k] becomes 1 where anything but targets[k] is hit.
+    void (*occluded_stream)(const Tree&, const RayQuery&, unsigned count,
+                            const std::uint32_t* targets, std::uint8_t* blocked);
+    /// pierced[k] grows by the number of facets on the ray.
+    void (*count_stream)(const Tree&, const RayQuery&, unsigned count, std::uint32_t* pierced);
 };
 
 } // namespace hemilux::wide

@@ -2,11 +2,8 @@
 // Divides ranges of triangles in two by the binned surface area heuristic.
 
 #include "bvh/intersect.h"
+#include "bvh/wide/four_floats.h"
 #include "parallel/workers.h"
-
-#define HEMILUX_KERNELS builder
-#include "bvh/wide/kernels/simd.h"
-#undef HEMILUX_KERNELS
 
 #include <array>
 #include <cstdint>
@@ -14,8 +11,6 @@
 #include <vector>
 
 namespace hemilux::wide {
-
-using builder::F4;
 
 /// A triangle's box. The fourth lanes hold its slot in two halves, as numbers, so that whole
 /// vectors can be added without meeting a denormal.

@@ -35,35 +35,33 @@ inline F8 error_bound(V3 a, F8 e, float origin) {
            (F8::splat(1 + error_offset) * sum_abs(a) + e + F8::splat(error_offset * origin));
 }
 
-/// The outcome of one test, lane by lane.
+/// Where a ray meets the planes of eight triangles: inside of their edges or outside.
 struct EdgeFunctions {
-    F8 u, w, d, rest; ///< rest = D - U - W; hit where u, w, rest have one sign
-    F8 error;
+    F8 d, error;
+    F8 depth; ///< the least of U, W and D - U - W, where they have one sign; else it is negative
 
-    EdgeFunctions(F8 u_, F8 w_, F8 d_, F8 error_)
-        : u(u_), w(w_), d(d_), rest(d_ - u_ - w_), error(error_) {}
+    EdgeFunctions(F8 u, F8 w, F8 d_, F8 error_) : d(d_), error(error_) {
+        const F8 rest = d - u - w;
+        depth = max(min(min(u, w), rest), F8::splat(0) - max(max(u, w), rest));
+    }
+    /// Returns the lanes that are missed if the triangle's plane is hit at a right t. A NaN is not
+    /// certainly missed.
+    [[nodiscard]] Lanes outside() const { return less_equal(error, F8::splat(0) - depth); }
+    [[nodiscard]] Lanes inside() const { return less(error, depth); }
+    [[nodiscard]] Bits front() const { return bits(less(d, F8::splat(0))); }
+};
 
-    /// Returns the lanes that are not certainly missed if the triangle's plane is hit at a right t.
-    /// A NaN is not certainly missed.
-    [[nodiscard]] Bits may_hit() const {
-        const F8 zero = F8::splat(0);
-        constexpr Bits all = (Bits{1} << width) - 1;
-        return ~(less_equal(min(min(u, w), rest), zero - error) &
-                 less_equal(error, max(max(u, w), rest))) &
-               all;
-    }
-    [[nodiscard]] Bits inside() const {
-        const F8 zero = F8::splat(0);
-        return less(error, min(min(u, w), rest)) | less(max(max(u, w), rest), zero - error);
-    }
-    [[nodiscard]] Bits front() const { return less(d, F8::splat(0)); }
+/// The lanes in which a ray meets the plane of a triangle certainly before its end, or certainly
+/// not between its start and its end.
+struct Span {
+    Lanes within, beyond;
 };
 
 /// Bounds of t where they are known; elsewhere they mean nothing. `volume` is A.N, whose error is
 /// at most E times that of D.
 struct Interval {
     F8 low, high;
-    Bits known;
+    Lanes known;
 
     Interval(const EdgeFunctions& s, F8 volume, F8 e) {
         const F8 inverse = F8::splat(1) / s.d;
@@ -73,6 +71,27 @@ struct Interval {
         high = t + error;
         known = less(F8::splat(3) * s.error, abs(s.d));
     }
+    [[nodiscard]] Span before(const FloatRay& ray, const Nearest& end) const {
+        return {known & less(F8::splat(ray.t_min_high), low) & less(high, F8::splat(end.low)),
+                known & (less(F8::splat(end.high), low) | less(high, F8::splat(ray.t_min_low)))};
+    }
 };
+
+/// Finds the same where t itself is not needed, without dividing by D: the volume is compared with
+/// the ends of the ray times |D|. The error of their difference is at most E + |t| times that of D;
+/// twice as much covers the rounding of these lines too.
+inline Span span_before(const EdgeFunctions& s, F8 volume, F8 e, const FloatRay& ray,
+                        const Nearest& end) {
+    const F8 d = abs(s.d), v = flip(volume, s.d), twice = s.error + s.error;
+    const F8 error_at_start = twice * (e + F8::splat(__builtin_fabsf(ray.t_min_high)));
+    const F8 error_at_end = twice * (e + F8::splat(__builtin_fabsf(end.high)));
+    const auto after = [&](float t) { return v - F8::splat(t) * d; };
+    const auto before = [&](float t) { return F8::splat(t) * d - v; };
+    const F8 zero = F8::splat(0);
+    return {less(s.error, d) & less(error_at_start, after(ray.t_min_high)) &
+                less(error_at_end, before(end.low)),
+            less(s.error, d) & (less(after(ray.t_min_low), zero - error_at_start) |
+                                less(before(end.high), zero - error_at_end))};
+}
 
 } // namespace hemilux::wide::HEMILUX_KERNELS

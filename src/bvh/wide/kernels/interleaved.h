@@ -7,28 +7,14 @@ namespace hemilux::wide::HEMILUX_KERNELS {
 
 inline constexpr unsigned rays_in_flight = 48;
 
-/// A ray on its way.
+/// A ray on its way. What its steps through nodes need lies in one line of the cache.
 struct alignas(64) RayState {
-    SlabRay slabs;
-    const FloatRay* ray;
-    std::uint32_t index; ///< index of the ray in the stream
-    std::uint32_t next;  ///< node or leaf to be visited; no_facet: the ray is done
-    float t_max;         ///< shrinks
+    std::uint32_t index;  ///< index of the ray in the stream
+    std::uint32_t next;   ///< node or leaf to be visited; no_facet: the ray is done
+    std::uint32_t target; ///< facet that does not stop it
+    Nearest nearest;      ///< the end of the ray, which may come closer
+    FloatRay ray;
     Stack stack;
-    alignas(64) char unused; ///< a line of the cache
-
-    void take(const FloatRay& of, std::uint32_t index_, float t_max_, std::uint32_t root) {
-        ray = &of;
-        slabs.set(of);
-        index = index_;
-        next = root;
-        t_max = t_max_;
-        stack.clear();
-    }
-    template <Rays rays>
-    void pop_before_end() {
-        next = stack.pop_before<rays>(t_max * slab_slack);
-    }
 };
 /// With an even number of lines the states would crowd in a few sets of the cache.
 static_assert(sizeof(RayState) / 64 % 2 == 1);
@@ -79,24 +65,34 @@ struct Queues {
     }
 };
 
-/// Sends rays through the tree. begin(state) makes it the next ray and returns false when there is
-/// none. on_leaf(state, leaf) may shrink state.t_max and returns true when the ray is done.
-template <Rays rays, class Begin, class OnLeaf>
-inline void traverse_interleaved(const Tree& tree, const Begin& begin, const OnLeaf& on_leaf) {
+/// Sends the rays of a query through the tree. begin(state) completes the state of one that begins.
+/// test(state, leaf) may bring its end closer, and returns what it found; then use(state, leaf,
+/// found) returns true when the ray is done.
+template <Rays rays, class Found, class Begin, class Test, class Use>
+inline void traverse_interleaved(const Tree& tree, const RayQuery& query, unsigned count,
+                                 const Begin& begin, const Test& test, const Use& use) {
     RayState states[rays_in_flight];
     Queues queues{tree, {}, {}, {}};
     for (RayState& state : states)
         queues.idle.add_if(true, &state);
-    for (;;) {
+    for (unsigned started = 0;;) {
         const unsigned idle = queues.idle.empty();
-        for (unsigned i = 0; i < idle; ++i)
-            if (RayState& state = *queues.idle.state[i]; begin(state))
+        for (unsigned i = 0; i < idle && started < count; ++started)
+            if (RayState& state = *queues.idle.state[i];
+                query.load(query.query, started, state.ray, state.nearest)) {
+                state.index = started;
+                state.next = tree.root;
+                state.stack.clear();
+                begin(state);
                 queues.add(state);
+                ++i;
+            }
         if (queues.nodes.size + queues.leaves.size == 0)
             return;
         for (unsigned i = 0; i < queues.nodes.size; ++i) {
             RayState& state = *queues.nodes.state[i];
-            visit_node<rays>(tree.nodes[state.next], state.slabs, state.t_max, state.stack);
+            visit_node<rays>(tree.nodes[state.next], state.ray.slabs, state.nearest.high,
+                             state.stack);
         }
         const unsigned at_nodes = queues.nodes.empty();
         for (unsigned i = 0; i < at_nodes; ++i) {
@@ -106,76 +102,64 @@ inline void traverse_interleaved(const Tree& tree, const Begin& begin, const OnL
         }
         if (queues.nodes.size > queues.leaves.size)
             continue;
-        for (unsigned i = 0; i < queues.leaves.size; ++i) {
-            RayState& state = *queues.leaves.state[i];
-            if (on_leaf(state, tree.leaves[state.next & ~flag]))
-                state.stack.clear();
-        }
+        const auto leaf_of = [&](const RayState& state) -> const Leaf& {
+            return tree.leaves[state.next & ~flag];
+        };
+        Found found[rays_in_flight];
         const unsigned at_leaves = queues.leaves.empty();
         for (unsigned i = 0; i < at_leaves; ++i) {
             RayState& state = *queues.leaves.state[i];
-            state.pop_before_end<rays>();
+            found[i] = test(state, leaf_of(state));
+        }
+        for (unsigned i = 0; i < at_leaves; ++i) {
+            RayState& state = *queues.leaves.state[i];
+            const bool done = use(state, leaf_of(state), found[i]);
+            const std::uint32_t next =
+                state.stack.pop_before<rays>(state.nearest.high * slab_slack);
+            state.next = done ? no_facet : next;
             queues.add(state);
         }
     }
 }
 
-/// Begins one ray of an array after the other, at the root.
-struct FromArray {
-    const FloatRay* rays;
-    unsigned count;
-    const Nearest* nearest;
-    std::uint32_t root;
-    unsigned& started;
-
-    bool operator()(RayState& state) const {
-        if (started == count)
+inline void closest_stream(const Tree& tree, const RayQuery& query, unsigned count,
+                           FirstHit* hits) {
+    struct Nothing {};
+    traverse_interleaved<Rays::stop, Nothing>(
+        tree, query, count, [](RayState&) {},
+        [&](RayState& state, const Leaf& leaf) {
+            closest_in(leaf, state.ray, query, state.index, state.nearest);
+            return Nothing{};
+        },
+        [&](RayState& state, const Leaf&, Nothing) {
+            hits[state.index] = {state.nearest.slot, state.nearest.front};
             return false;
-        state.take(rays[started], started, nearest[started].high, root);
-        ++started;
-        return true;
-    }
-};
-
-inline void closest_stream(const Tree& tree, const FloatRay* rays, unsigned count, Nearest* nearest,
-                           const ExactTest& exact) {
-    unsigned started = 0;
-    traverse_interleaved<Rays::stop>(tree, FromArray{rays, count, nearest, tree.root, started},
-                                     [&](RayState& state, const Leaf& leaf) {
-                                         closest_in(leaf, *state.ray, state.index,
-                                                    nearest[state.index], exact);
-                                         state.t_max = nearest[state.index].high;
-                                         return false;
-                                     });
+        });
 }
 
-inline void occluded_stream(const Tree& tree, const FloatRay* rays, unsigned count,
-                            const Nearest* t, const std::uint32_t* targets, std::uint8_t* blocked,
-                            const ExactTest& exact) {
-    for (unsigned k = 0; k < count; ++k)
-        blocked[k] = 0;
-    unsigned started = 0;
-    traverse_interleaved<Rays::pierce>(tree, FromArray{rays, count, t, tree.root, started},
-                                       [&](RayState& state, const Leaf& leaf) {
-                                           const unsigned k = state.index;
-                                           blocked[k] = blocks(leaf, *state.ray, k, t[k].low,
-                                                               t[k].high, targets[k], exact);
-                                           return blocked[k] != 0;
-                                       });
+inline void occluded_stream(const Tree& tree, const RayQuery& query, unsigned count,
+                            const std::uint32_t* targets, std::uint8_t* blocked) {
+    traverse_interleaved<Rays::pierce, HitMask>(
+        tree, query, count, [&](RayState& state) { state.target = targets[state.index]; },
+        [](RayState& state, const Leaf& leaf) {
+            return hits_before(leaf, state.ray, state.nearest, state.target);
+        },
+        [&](RayState& state, const Leaf& leaf, const HitMask& mask) {
+            return (blocked[state.index] = blocks(mask, leaf, query, state.index)) != 0;
+        });
 }
 
-inline void count_stream(const Tree& tree, const FloatRay* rays, unsigned count, const Nearest* t,
-                         std::uint32_t* pierced, const ExactTest& exact) {
-    for (unsigned k = 0; k < count; ++k)
-        pierced[k] = 0;
-    unsigned started = 0;
-    traverse_interleaved<Rays::pierce>(tree, FromArray{rays, count, t, tree.root, started},
-                                       [&](RayState& state, const Leaf& leaf) {
-                                           const unsigned k = state.index;
-                                           pierced[k] += count_in(leaf, *state.ray, k, t[k].low,
-                                                                  t[k].high, exact);
-                                           return false;
-                                       });
+inline void count_stream(const Tree& tree, const RayQuery& query, unsigned count,
+                         std::uint32_t* pierced) {
+    traverse_interleaved<Rays::pierce, HitMask>(
+        tree, query, count, [](RayState& state) { state.target = no_facet; },
+        [](RayState& state, const Leaf& leaf) {
+            return hits_before(leaf, state.ray, state.nearest, state.target);
+        },
+        [&](RayState& state, const Leaf& leaf, const HitMask& mask) {
+            pierced[state.index] += count_in(mask, leaf, query, state.index);
+            return false;
+        });
 }
 
 } // namespace hemilux::wide::HEMILUX_KERNELS

@@ -1,7 +1,8 @@
 // Eight floats at once, in whatever pieces the instruction set has. The code uses the compiler's
-// vectors, and intrinsics only for what those cannot say (minimum, comparison to bits). A
-// comparison gives bits, lane i in bit i, in every instruction set. There is no #pragma once, as
-// the file is included once per instruction set, into a namespace of its own.
+// vectors, and intrinsics only for what those cannot say (minimum, comparison). A comparison gives
+// lanes, in the form that the instruction set has for them; bits(lanes) has lane i in bit i. There
+// is no #pragma once, as the file is included once per instruction set, into a namespace of its
+// own.
 
 #include <cstdint>
 
@@ -17,6 +18,36 @@ inline unsigned first_of(Bits bits) { return static_cast<unsigned>(__builtin_ctz
 inline unsigned last_of(Bits bits) { return 31 - static_cast<unsigned>(__builtin_clz(bits)); }
 inline unsigned count_bits(Bits bits) { return static_cast<unsigned>(__builtin_popcount(bits)); }
 
+/// A set of the eight lanes.
+#if defined(__AVX512VL__)
+struct Lanes {
+    __mmask8 m;
+
+    friend Lanes operator&(Lanes a, Lanes b) { return {_kand_mask8(a.m, b.m)}; }
+    friend Lanes operator|(Lanes a, Lanes b) { return {_kor_mask8(a.m, b.m)}; }
+    friend Lanes without(Lanes a, Lanes b) { return {_kandn_mask8(b.m, a.m)}; }
+    friend Bits bits(Lanes a) { return _cvtmask8_u32(a.m); }
+};
+#elif defined(__AVX2__)
+struct Lanes {
+    __m256 v; ///< all bits of a lane are equal
+
+    friend Lanes operator&(Lanes a, Lanes b) { return {_mm256_and_ps(a.v, b.v)}; }
+    friend Lanes operator|(Lanes a, Lanes b) { return {_mm256_or_ps(a.v, b.v)}; }
+    friend Lanes without(Lanes a, Lanes b) { return {_mm256_andnot_ps(b.v, a.v)}; }
+    friend Bits bits(Lanes a) { return static_cast<Bits>(_mm256_movemask_ps(a.v)); }
+};
+#else
+struct Lanes {
+    Bits b;
+
+    friend Lanes operator&(Lanes x, Lanes y) { return {x.b & y.b}; }
+    friend Lanes operator|(Lanes x, Lanes y) { return {x.b | y.b}; }
+    friend Lanes without(Lanes x, Lanes y) { return {x.b & ~y.b}; }
+    friend Bits bits(Lanes x) { return x.b; }
+};
+#endif
+
 #if defined(__AVX2__)
 struct F8 {
     __m256 v;
@@ -31,12 +62,17 @@ struct F8 {
     friend F8 min(F8 a, F8 b) { return {_mm256_min_ps(a.v, b.v)}; }
     friend F8 max(F8 a, F8 b) { return {_mm256_max_ps(a.v, b.v)}; }
     friend F8 abs(F8 a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
-    friend Bits less_equal(F8 a, F8 b) {
-        return static_cast<Bits>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)));
+    /// Returns a, with its sign changed where that of b is set.
+    friend F8 flip(F8 a, F8 b) {
+        return {_mm256_xor_ps(a.v, _mm256_and_ps(_mm256_set1_ps(-0.0f), b.v))};
     }
-    friend Bits less(F8 a, F8 b) {
-        return static_cast<Bits>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)));
-    }
+#if defined(__AVX512VL__)
+    friend Lanes less_equal(F8 a, F8 b) { return {_mm256_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ)}; }
+    friend Lanes less(F8 a, F8 b) { return {_mm256_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)}; }
+#else
+    friend Lanes less_equal(F8 a, F8 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)}; }
+    friend Lanes less(F8 a, F8 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
+#endif
 };
 #else
 /// Four lanes: what every compiler has.
@@ -71,6 +107,7 @@ struct F4 {
     }
 #endif
     friend F4 abs(F4 a) { return max(a, F4{-a.v}); }
+    friend F4 flip(F4 a, F4 b) { return {b.v < 0 ? -a.v : a.v}; }
 };
 
 /// Two halves side by side.
@@ -90,8 +127,11 @@ struct F8 {
     friend F8 min(F8 x, F8 y) { return {min(x.a, y.a), min(x.b, y.b)}; }
     friend F8 max(F8 x, F8 y) { return {max(x.a, y.a), max(x.b, y.b)}; }
     friend F8 abs(F8 x) { return {abs(x.a), abs(x.b)}; }
-    friend Bits less_equal(F8 x, F8 y) { return less_equal(x.a, y.a) | less_equal(x.b, y.b) << 4; }
-    friend Bits less(F8 x, F8 y) { return less(x.a, y.a) | less(x.b, y.b) << 4; }
+    friend F8 flip(F8 x, F8 y) { return {flip(x.a, y.a), flip(x.b, y.b)}; }
+    friend Lanes less_equal(F8 x, F8 y) {
+        return {less_equal(x.a, y.a) | less_equal(x.b, y.b) << 4};
+    }
+    friend Lanes less(F8 x, F8 y) { return {less(x.a, y.a) | less(x.b, y.b) << 4}; }
 };
 #endif
 
@@ -101,23 +141,28 @@ inline Bits at_most(const float* sixteen, float limit) {
     return _mm512_cmp_ps_mask(_mm512_load_ps(sixteen), _mm512_set1_ps(limit), _CMP_LE_OQ);
 #else
     const F8 end = F8::splat(limit);
-    return less_equal(F8::load(sixteen), end) | less_equal(F8::load(sixteen + 8), end) << 8;
+    return bits(less_equal(F8::load(sixteen), end)) | bits(less_equal(F8::load(sixteen + 8), end))
+                                                          << 8;
 #endif
 }
 
 /// Returns which of eight words, but for the bits of `ignored`, are `word`.
-inline Bits equal(const std::uint32_t* words, std::uint32_t ignored, std::uint32_t word) {
+inline Lanes equal(const std::uint32_t* words, std::uint32_t ignored, std::uint32_t word) {
 #if defined(__AVX2__)
-    const __m256i eight = _mm256_load_si256(reinterpret_cast<const __m256i*>(words));
-    const __m256i same =
-        _mm256_cmpeq_epi32(_mm256_andnot_si256(_mm256_set1_epi32(static_cast<int>(ignored)), eight),
-                           _mm256_set1_epi32(static_cast<int>(word)));
-    return static_cast<Bits>(_mm256_movemask_ps(_mm256_castsi256_ps(same)));
+    const __m256i eight =
+        _mm256_andnot_si256(_mm256_set1_epi32(static_cast<int>(ignored)),
+                            _mm256_load_si256(reinterpret_cast<const __m256i*>(words)));
+    const __m256i wanted = _mm256_set1_epi32(static_cast<int>(word));
+#if defined(__AVX512VL__)
+    return {_mm256_cmpeq_epi32_mask(eight, wanted)};
+#else
+    return {_mm256_castsi256_ps(_mm256_cmpeq_epi32(eight, wanted))};
+#endif
 #else
     Bits bits = 0;
     for (unsigned k = 0; k < 8; ++k)
         bits |= Bits{(words[k] & ~ignored) == word} << k;
-    return bits;
+    return {bits};
 #endif
 }
 

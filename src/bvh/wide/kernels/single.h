@@ -6,24 +6,6 @@ namespace hemilux::wide::HEMILUX_KERNELS {
 /// This factor covers the relative rounding errors of a slab test.
 inline constexpr float slab_slack = 1 + 0x1p-20f;
 
-/// The ray as the box tests take it: a plane p is met at p * inverse + offset.
-struct SlabRay {
-    using Byte = unsigned char; // so that a state's head fits a line of the cache
-
-    float inverse[3], offset[3];
-    Byte octant, near[3], far[3]; ///< places in a node of the planes met first and last
-
-    void set(const FloatRay& ray) {
-        octant = static_cast<Byte>(octant_of(ray.inverse));
-        for (unsigned i = 0; i < 3; ++i) {
-            inverse[i] = ray.inverse[i];
-            offset[i] = -ray.origin[i] * ray.inverse[i];
-            near[i] = static_cast<Byte>(width * (2 * i + (ray.inverse[i] < 0)));
-            far[i] = near[i] ^ width;
-        }
-    }
-};
-
 /// Pushes the children met before t_max.
 template <Rays rays>
 inline void visit_node(const Node& node, const SlabRay& ray, float t_max, Stack& stack) {
@@ -42,13 +24,11 @@ inline void visit_node(const Node& node, const SlabRay& ray, float t_max, Stack&
 /// where rays are stopped.
 template <Rays rays, class OnLeaf>
 inline void walk(const Tree& tree, const FloatRay& ray, const float& t_max, OnLeaf&& on_leaf) {
-    SlabRay slabs;
-    slabs.set(ray);
     Stack stack;
     stack.clear();
     for (std::uint32_t now = tree.root; now != no_facet;) {
         if ((now & flag) == 0) {
-            visit_node<rays>(tree.nodes[now], slabs, t_max, stack);
+            visit_node<rays>(tree.nodes[now], ray.slabs, t_max, stack);
             now = stack.pop();
         } else {
             if (on_leaf(tree.leaves[now & ~flag]))
@@ -64,49 +44,46 @@ inline V3 load3(const float (&p)[3][width]) {
 
 /// The test of a leaf's triangles against one ray.
 struct LeafTest {
-    V3 a, e1, e2;
+    V3 a, e1, e2, normal;
     F8 e;
     EdgeFunctions edges;
 
     LeafTest(const Leaf& leaf, const FloatRay& ray)
         : a(load3(leaf.corner) - V3::splat(ray.origin)), e1(load3(leaf.edge1)),
-          e2(load3(leaf.edge2)), e(max(max_abs(e1), max_abs(e2))), edges(edge_functions(ray)) {}
+          e2(load3(leaf.edge2)), normal(cross(e1, e2)), e(max(max_abs(e1), max_abs(e2))),
+          edges(edge_functions(ray)) {}
 
-    [[nodiscard]] Interval interval() const { return {edges, dot(a, cross(e1, e2)), e}; }
+    [[nodiscard]] Interval interval() const { return {edges, dot(a, normal), e}; }
+    [[nodiscard]] Span span_before(const FloatRay& ray, const Nearest& end) const {
+        return HEMILUX_KERNELS::span_before(edges, dot(a, normal), e, ray, end);
+    }
 
   private:
     [[nodiscard]] EdgeFunctions edge_functions(const FloatRay& ray) const {
         const V3 d = V3::splat(ray.direction);
         const V3 q = cross(a, d); // U = e2.(A x d), W = -e1.(A x d)
-        return {dot(e2, q), F8::splat(0) - dot(e1, q), dot(d, cross(e1, e2)),
-                error_bound(a, e, reach(ray))};
-    }
-    /// Returns the largest component of the origin and what a ray from far away, which begins where
-    /// it enters the bounds, may be off by more.
-    [[nodiscard]] static float reach(const FloatRay& ray) {
-        constexpr float entered = 0.003f;
-        const float x = __builtin_fabsf(ray.origin[0]), y = __builtin_fabsf(ray.origin[1]),
-                    z = __builtin_fabsf(ray.origin[2]);
-        const float xy = x > y ? x : y;
-        return entered + (xy > z ? xy : z);
+        return {dot(e2, q), F8::splat(0) - dot(e1, q), dot(d, normal),
+                error_bound(a, e, ray.reach)};
     }
 };
 
-/// The slots of a leaf that a ray strikes before it ends, certainly or perhaps. Its end is known to
-/// lie between `low` and `high`.
+/// The slots of a leaf that a ray strikes between its start and its end, certainly or perhaps.
+/// Those of `excepted` facets are left out.
 struct HitMask {
     Bits certain, uncertain;
 
-    HitMask(const Leaf& leaf, const EdgeFunctions& edges, const Interval& t, const FloatRay& ray,
-            float low, float high) {
-        const Bits out =
-            t.known & (less(F8::splat(high), t.low) | less(t.high, F8::splat(ray.t_min_low)));
-        const Bits candidates = edges.may_hit() & ~out & ~equal(leaf.slot, flag, ray.from);
-        certain = candidates & t.known & edges.inside() & less(F8::splat(ray.t_min_high), t.low) &
-                  less(t.high, F8::splat(low));
-        uncertain = candidates & ~certain;
+    HitMask() = default;
+    HitMask(const EdgeFunctions& edges, const Span& span, Lanes excepted) {
+        constexpr Bits all = (Bits{1} << width) - 1;
+        const Lanes sure = edges.inside() & span.within;
+        certain = bits(without(sure, excepted));
+        uncertain = bits(sure | edges.outside() | span.beyond | excepted) ^ all;
     }
 };
+
+inline Lanes slots_of(std::uint32_t facet, const Leaf& leaf) {
+    return equal(leaf.slot, flag, facet);
+}
 
 /// The bounds of t for each slot of a leaf, and what to take where no slot is nearer.
 struct Candidates {
@@ -130,8 +107,8 @@ struct Candidates {
 };
 
 /// Compares the slots of a leaf with the nearest hit so far, one after the other.
-inline void consider(const HitMask& mask, const Candidates& candidates, Bits known, unsigned index,
-                     Nearest& nearest, const ExactTest& exact) {
+inline void consider(const HitMask& mask, const Candidates& candidates, Bits known,
+                     const RayQuery& query, unsigned index, Nearest& nearest) {
     for (Bits left = mask.certain | mask.uncertain; left; left &= left - 1) {
         const unsigned k = first_of(left);
         const Nearest at = candidates[k];
@@ -140,72 +117,72 @@ inline void consider(const HitMask& mask, const Candidates& candidates, Bits kno
         if ((mask.certain >> k & 1) != 0 && at.high < nearest.low)
             nearest = at;
         else if (nearest.slot == no_facet || ((at.slot ^ nearest.slot) & ~flag) != 0)
-            exact.closer(exact.query, index, at.slot, nearest);
+            query.closer(query.query, index, at.slot, nearest);
     }
 }
 
 /// Compares a leaf with the nearest hit so far. Nearly always one slot or none is nearer, and
 /// certainly so. That case needs no branch, which the processor could not foresee.
-[[gnu::always_inline]] inline void closest_in(const Leaf& leaf, const FloatRay& ray, unsigned index,
-                                              Nearest& nearest, const ExactTest& exact) {
+[[gnu::always_inline]] inline void closest_in(const Leaf& leaf, const FloatRay& ray,
+                                              const RayQuery& query, unsigned index,
+                                              Nearest& nearest) {
     const LeafTest test(leaf, ray);
     const Interval t = test.interval();
-    const HitMask mask(leaf, test.edges, t, ray, nearest.low, nearest.high);
+    const HitMask mask(test.edges, t.before(ray, nearest), slots_of(ray.from, leaf));
     const Candidates candidates(leaf, test.edges, t, nearest);
     if (mask.uncertain | (mask.certain & (mask.certain - 1))) [[unlikely]]
-        consider(mask, candidates, t.known, index, nearest, exact);
+        consider(mask, candidates, bits(t.known), query, index, nearest);
     else
         nearest = candidates[first_of(mask.certain | Bits{1} << width)];
 }
 
-inline void closest(const Tree& tree, const FloatRay& ray, unsigned index, Nearest& nearest,
-                    const ExactTest& exact) {
+inline void closest(const Tree& tree, const FloatRay& ray, Nearest& nearest,
+                    const RayQuery& query) {
     walk<Rays::stop>(tree, ray, nearest.high, [&](const Leaf& leaf) {
-        closest_in(leaf, ray, index, nearest, exact);
+        closest_in(leaf, ray, query, 0, nearest);
         return false;
     });
 }
 
-/// Returns whether anything in a leaf but `target` is hit before t.
-inline bool blocks(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low, float t_high,
-                   std::uint32_t target, const ExactTest& exact) {
+/// Returns the slots of a leaf that are hit before the end, but for those of `target`.
+[[gnu::always_inline]] inline HitMask hits_before(const Leaf& leaf, const FloatRay& ray,
+                                                  const Nearest& end, std::uint32_t target) {
     const LeafTest test(leaf, ray);
-    const HitMask mask(leaf, test.edges, test.interval(), ray, t_low, t_high);
-    const Bits others = ~equal(leaf.slot, flag, target);
-    if (mask.certain & others)
-        return true;
-    for (Bits left = mask.uncertain & others; left; left &= left - 1)
-        if (exact.hits(exact.query, index, leaf.slot[first_of(left)]))
-            return true;
-    return false;
+    return {test.edges, test.span_before(ray, end),
+            slots_of(ray.from, leaf) | slots_of(target, leaf)};
 }
 
-inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
-                     float t_high, std::uint32_t target, const ExactTest& exact) {
+inline bool blocks(const HitMask& mask, const Leaf& leaf, const RayQuery& query, unsigned index) {
+    bool blocked = mask.certain != 0;
+    for (Bits left = blocked ? 0 : mask.uncertain; left && !blocked; left &= left - 1)
+        blocked = query.hits(query.query, index, leaf.slot[first_of(left)]);
+    return blocked;
+}
+
+inline bool occluded(const Tree& tree, const FloatRay& ray, const Nearest& end,
+                     std::uint32_t target, const RayQuery& query) {
     bool blocked = false;
-    walk<Rays::pierce>(tree, ray, t_high, [&](const Leaf& leaf) {
-        blocked = blocks(leaf, ray, index, t_low, t_high, target, exact);
+    walk<Rays::pierce>(tree, ray, end.high, [&](const Leaf& leaf) {
+        blocked = blocks(hits_before(leaf, ray, end, target), leaf, query, 0);
         return blocked;
     });
     return blocked;
 }
 
-/// Returns how many facets of a leaf are pierced.
-inline std::uint32_t count_in(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low,
-                              float t_high, const ExactTest& exact) {
-    const LeafTest test(leaf, ray);
-    const HitMask mask(leaf, test.edges, test.interval(), ray, t_low, t_high);
+/// Returns how many facets are pierced, of those in a leaf.
+inline std::uint32_t count_in(const HitMask& mask, const Leaf& leaf, const RayQuery& query,
+                              unsigned index) {
     std::uint32_t pierced = count_bits(mask.certain);
     for (Bits left = mask.uncertain; left; left &= left - 1)
-        pierced += exact.counts(exact.query, index, leaf.slot[first_of(left)]);
+        pierced += query.counts(query.query, index, leaf.slot[first_of(left)]);
     return pierced;
 }
 
-inline std::uint32_t count(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
-                           float t_high, const ExactTest& exact) {
+inline std::uint32_t count(const Tree& tree, const FloatRay& ray, const Nearest& end,
+                           const RayQuery& query) {
     std::uint32_t pierced = 0;
-    walk<Rays::pierce>(tree, ray, t_high, [&](const Leaf& leaf) {
-        pierced += count_in(leaf, ray, index, t_low, t_high, exact);
+    walk<Rays::pierce>(tree, ray, end.high, [&](const Leaf& leaf) {
+        pierced += count_in(hits_before(leaf, ray, end, no_facet), leaf, query, 0);
         return false;
     });
     return pierced;

@@ -1,54 +1,25 @@
-// A stack of what a ray has still to visit. The children that it meets are pushed in an order that
-// was fixed when the tree was built, one for each octant of directions (after Ylitie, Karras and
-// Laine 2017). That needs no sorting and no branch on how many they are. No #pragma once: see
-// simd.h.
+// A stack of what a ray has still to visit. Where a hit stops the ray, the children that it meets
+// are pushed in an order that was fixed when the tree was built, one for each octant of directions
+// (after Ylitie, Karras and Laine 2017). That needs no sorting and no branch on how many they are.
+// No #pragma once: see simd.h.
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
-/// Returns the octant that a direction belongs to, from the signs of its components.
-inline unsigned octant_of(const float* direction) {
-    return unsigned{direction[0] < 0} | unsigned{direction[1] < 0} << 1 |
-           unsigned{direction[2] < 0} << 2;
-}
-
 #if defined(__AVX2__)
 
-/// A permutation that brings eight words of 32 bits into a node's order and stores those in a mask
-/// without gaps. Words behind them are overwritten too.
-struct Ordering {
-    __m256i place;
+/// Stores words of 32 bits without gaps: the lanes in a mask, then anything.
+struct Packing {
     unsigned met;
-
-    /// Takes the lanes with low <= high.
-    Ordering(const Node& node, unsigned octant, F8 low, F8 high) {
-        place = _mm256_srlv_epi32(_mm256_set1_epi32(static_cast<int>(node.order[octant])),
-                                  _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
-        const F8 from{_mm256_permutevar8x32_ps(low.v, place)};
-        const F8 to{_mm256_permutevar8x32_ps(high.v, place)};
 #if defined(__AVX512VL__)
-        met = _mm256_cmp_ps_mask(from.v, to.v, _CMP_LE_OQ); // stays in a mask register
+    explicit Packing(Lanes lanes) : met(lanes.m) {}
+    void store(__m256i words, void* to) const {
+        _mm256_storeu_si256(static_cast<__m256i*>(to),
+                            _mm256_maskz_compress_epi32(static_cast<__mmask8>(met), words));
+    }
 #else
-        met = less_equal(from, to);
-        place = _mm256_permutevar8x32_epi32(place, gaps_closed(met));
-#endif
-    }
-    [[nodiscard]] unsigned count() const { return static_cast<unsigned>(__builtin_popcount(met)); }
-    void store(const std::uint32_t* words, std::uint32_t* to) const {
-        write(_mm256_load_si256(reinterpret_cast<const __m256i*>(words)), to);
-    }
-    void store(F8 words, float* to) const { write(_mm256_castps_si256(words.v), to); }
+    __m256i place;
 
-  private:
-    void write(__m256i words, void* to) const {
-        __m256i ordered = _mm256_permutevar8x32_epi32(words, place);
-#if defined(__AVX512VL__)
-        ordered = _mm256_maskz_compress_epi32(static_cast<__mmask8>(met), ordered);
-#endif
-        _mm256_storeu_si256(static_cast<__m256i*>(to), ordered);
-    }
-#if !defined(__AVX512VL__)
-    /// Returns the lanes in the mask, then anything.
-    static __m256i gaps_closed(unsigned mask) {
+    explicit Packing(Lanes lanes) : met(bits(lanes)) {
         struct Table {
             unsigned char lane[256][8] = {};
             constexpr Table() {
@@ -59,36 +30,69 @@ struct Ordering {
             }
         };
         alignas(64) static constexpr Table table;
-        return _mm256_cvtepu8_epi32(
-            _mm_loadl_epi64(reinterpret_cast<const __m128i*>(table.lane[mask])));
+        place = _mm256_cvtepu8_epi32(
+            _mm_loadl_epi64(reinterpret_cast<const __m128i*>(table.lane[met])));
+    }
+    void store(__m256i words, void* to) const {
+        _mm256_storeu_si256(static_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(words, place));
     }
 #endif
+    [[nodiscard]] unsigned count() const { return static_cast<unsigned>(__builtin_popcount(met)); }
+};
+
+/// The children of a node, with where a ray enters their boxes and leaves them.
+struct Children {
+    __m256i child;
+    F8 enter, leave;
+
+    Children(const Node& node, F8 enter_, F8 leave_)
+        : child(_mm256_load_si256(reinterpret_cast<const __m256i*>(node.child))), enter(enter_),
+          leave(leave_) {}
+
+    /// Brings them into the node's order for an octant.
+    void order(const Node& node, unsigned octant) {
+        const __m256i place =
+            _mm256_srlv_epi32(_mm256_set1_epi32(static_cast<int>(node.order[octant])),
+                              _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
+        child = _mm256_permutevar8x32_epi32(child, place);
+        enter.v = _mm256_permutevar8x32_ps(enter.v, place);
+        leave.v = _mm256_permutevar8x32_ps(leave.v, place);
+    }
+    /// Stores those that are met, and where they are entered if that is asked for. Returns how many
+    /// they are.
+    unsigned store_met(std::uint32_t* children, float* enters) const {
+        const Packing packing(less_equal(enter, leave));
+        packing.store(child, children);
+        if (enters)
+            packing.store(_mm256_castps_si256(enter.v), enters);
+        return packing.count();
+    }
 };
 
 #else
 
-struct Ordering {
-    unsigned char lane[width];
-    unsigned number = 0;
+/// The children of a node, with where a ray enters their boxes.
+struct Children {
+    const std::uint32_t* child;
+    alignas(64) float enter[width];
+    Bits met;
+    std::uint32_t places = 0x76543210;
 
-    Ordering(const Node& node, unsigned octant, F8 low, F8 high) {
-        const Bits met = less_equal(low, high);
-        std::uint32_t order = node.order[octant];
-        for (unsigned k = 0; k < width; ++k, order >>= 4) {
-            lane[number] = order & 7;
-            number += met >> (order & 7) & 1;
+    Children(const Node& node, F8 enter_, F8 leave)
+        : child(node.child), met(bits(less_equal(enter_, leave))) {
+        enter_.store(enter);
+    }
+    void order(const Node& node, unsigned octant) { places = node.order[octant]; }
+    unsigned store_met(std::uint32_t* children, float* enters) const {
+        unsigned number = 0;
+        for (std::uint32_t left = places, k = 0; k < width; ++k, left >>= 4) {
+            const unsigned lane = left & 7;
+            children[number] = child[lane];
+            if (enters)
+                enters[number] = enter[lane];
+            number += met >> lane & 1;
         }
-    }
-    [[nodiscard]] unsigned count() const { return number; }
-    void store(const std::uint32_t* words, std::uint32_t* to) const {
-        for (unsigned k = 0; k < number; ++k)
-            to[k] = words[lane[k]];
-    }
-    void store(F8 words, float* to) const {
-        alignas(64) float word[width];
-        words.store(word);
-        for (unsigned k = 0; k < number; ++k)
-            to[k] = word[lane[k]];
+        return number;
     }
 };
 
@@ -105,22 +109,22 @@ struct Stack {
     static constexpr unsigned room = (stack_size + width) / at_once + 1;
 
     unsigned top;
-    alignas(64) std::uint32_t child[room * at_once];
-    alignas(64) float enter[room * at_once]; ///< places where rays are stopped
+    std::uint32_t child[room * at_once];
+    alignas(64) float enter[room * at_once]; ///< kept where rays are stopped
 
     void clear() {
         child[0] = no_facet;
         enter[0] = -__builtin_inff();
         top = 1;
     }
+    /// Pushes the children that are met: where rays are stopped, in an order that was fixed for
+    /// each octant of directions; else in that of the node, whose last child is the largest.
     template <Rays rays>
     void push(const Node& node, unsigned octant, F8 from, F8 to) {
-        const Ordering ordering(node, octant, from, to);
-        const unsigned t = top;
-        ordering.store(node.child, child + t);
+        Children children(node, from, to);
         if constexpr (rays == Rays::stop)
-            ordering.store(from, enter + t);
-        top = t + ordering.count();
+            children.order(node, octant);
+        top += children.store_met(child + top, rays == Rays::stop ? enter + top : nullptr);
     }
     /// Returns the topmost entry; no_facet: there is none.
     std::uint32_t pop() { return child[--top]; }
