@@ -21,6 +21,9 @@ namespace {
 /// The largest number of rays of a row that are traced at once; longer rows are traced in parts.
 constexpr std::uint32_t rays_in_batch = 1u << 14;
 
+/// The bytes of a patch that was hit and its hits, as they are saved.
+constexpr std::size_t saved_bytes = 2 * sizeof(std::uint32_t);
+
 /// Draws some of a block's rays. Of the four dimensions the first two are the best distributed.
 void draw(const PatchStart& start, const SobolBlocks<4>& points, std::size_t first,
           std::size_t count, std::vector<Ray>& rays) {
@@ -207,8 +210,10 @@ void RayCounts::save_row(std::uint32_t patch, StateWriter& state) const {
     for (const std::uint32_t rays : {of.rays, of.escaped, of.absorbed})
         state.add(rays);
     state.add(std::uint64_t{row(patch).size()});
-    for (const std::uint32_t word : row(patch))
-        state.add(word);
+    for (const std::uint32_t word : row(patch)) {
+        state.add(words_.column(word));
+        state.add(words_.count(word));
+    }
 }
 
 void RayCounts::save(StateWriter& state) const {
@@ -232,7 +237,7 @@ void RayCounts::save(StateWriter& state) const {
         std::string_view& rows = left[own_.owner(i)];
         constexpr std::size_t before_size = 3 * sizeof(std::uint32_t);
         const std::uint64_t hit = StateReader(rows.substr(before_size)).whole();
-        const std::size_t size = before_size + sizeof(hit) + hit * sizeof(std::uint32_t);
+        const std::size_t size = before_size + sizeof(hit) + hit * saved_bytes;
         state.append(rows.substr(0, size));
         rows.remove_prefix(size);
     }
@@ -244,14 +249,17 @@ void RayCounts::load(StateReader& state) {
             state.get(*rays);
         std::uint64_t sum = std::uint64_t{rows_[i].escaped} + rows_[i].absorbed;
         std::vector<std::uint32_t>& block = blocks_[i / rows_per_block];
-        for (std::size_t left = state.count(sizeof(std::uint32_t)); left > 0; --left) {
-            std::uint32_t word = 0;
-            state.get(word);
-            if (words_.column(word) >= rows_.size() || words_.count(word) == 0)
+        for (std::size_t left = state.count(saved_bytes); left > 0; --left) {
+            std::uint32_t patch = 0, hits = 0;
+            state.get(patch);
+            state.get(hits);
+            if (patch >= rows_.size() || hits == 0)
                 throw StateError("a patch is no patch, or was not hit");
-            sum += words_.count(word);
-            if (own_.owns(i))
-                block.push_back(word);
+            sum += hits;
+            for (std::uint32_t part = 0; own_.owns(i) && hits > 0; hits -= part) {
+                part = std::min(hits, words_.max_count());
+                block.push_back(words_.pack(patch, part));
+            }
         }
         // Every ray has hit something, once.
         if (sum != rows_[i].rays)
