@@ -32,7 +32,7 @@ using namespace hemilux;
 namespace {
 
 constexpr unsigned batches = 4;
-constexpr std::size_t bytes_of_hit = 8;
+constexpr std::size_t bytes_of_hit = 4;
 
 class SomeRanks final : public Ranks {
   public:
@@ -62,8 +62,8 @@ void print_shares(unsigned count, const std::vector<RayCounts>& counts,
         const unsigned of = blocks.owner(i);
         rays[of] += batches * (planned.random[i] + planned.to_emitters[i]);
         for (const RayCounts& batch : counts)
-            for (const RayCounts::Count& count_of : batch.row(i)) {
-                const unsigned other = blocks.owner(count_of.patch);
+            for (const std::uint32_t word : batch.row(i)) {
+                const unsigned other = blocks.owner(batch.words().column(word));
                 ++entries[of];
                 ++entries[other];
                 bytes[other] += other != of ? bytes_of_hit : 0;

@@ -81,16 +81,16 @@ void ExchangeMatrix::find_lost(std::span<const ExchangeMatrix> batches) {
 
 /// The hits of rays from other ranks' patches on this rank's patches, by rank.
 struct ExchangeMatrix::HitsOfOthers {
-    std::vector<std::vector<RayCounts::Count>> hits; ///< hits, patch after patch of that rank
-    std::vector<std::vector<std::uint32_t>> sizes;   ///< number of hits from each such patch
+    std::vector<std::vector<std::uint32_t>> hits;  ///< words, patch after patch of that rank
+    std::vector<std::vector<std::uint32_t>> sizes; ///< number of words from each such patch
 };
 
-/// Exchanges hits among the ranks. For a patch of another rank, `sizes` says how many hits go
+/// Exchanges hits among the ranks. For a patch of another rank, `sizes` says how many words go
 /// there.
 ExchangeMatrix::HitsOfOthers
 ExchangeMatrix::hits_of_others(const RayCounts& batch, std::span<const std::uint32_t> sizes) const {
     const unsigned count = own_.ranks().count(), own = own_.ranks().index();
-    HitsOfOthers sent{std::vector<std::vector<RayCounts::Count>>(count),
+    HitsOfOthers sent{std::vector<std::vector<std::uint32_t>>(count),
                       std::vector<std::vector<std::uint32_t>>(count)};
     if (!own_.ranks().are_several())
         return sent;
@@ -104,9 +104,9 @@ ExchangeMatrix::hits_of_others(const RayCounts& batch, std::span<const std::uint
         }
     std::vector<std::size_t> before(count);
     for (std::size_t k = 0; k < own_.count(); ++k) {
-        for (const RayCounts::Count& hits : batch.row(static_cast<std::uint32_t>(own_.item(k))))
-            if (const unsigned rank = own_.owner(hits.patch); rank != own)
-                sent.hits[rank].push_back(hits);
+        for (const std::uint32_t word : batch.row(static_cast<std::uint32_t>(own_.item(k))))
+            if (const unsigned rank = own_.owner(batch.words().column(word)); rank != own)
+                sent.hits[rank].push_back(word);
         for (unsigned rank = 0; rank < count; ++rank)
             if (rank != own) {
                 const std::size_t now = sent.hits[rank].size();
@@ -120,34 +120,36 @@ ExchangeMatrix::hits_of_others(const RayCounts& batch, std::span<const std::uint
 /// Stores the rows. Each begins with what the patch saw; what saw the patch follows.
 void ExchangeMatrix::store(const RayCounts& batch) {
     const auto n = static_cast<std::uint32_t>(area_.size());
+    const CountWords& words = batch.words();
     std::vector<double> rays_per_area(n);
     std::vector<std::uint32_t> sizes(n);
     for (std::uint32_t i = 0; i < n; ++i) {
         rays_per_area[i] = area_[i] > 0 ? rays_[i] / area_[i] : 0;
         sizes[i] += static_cast<std::uint32_t>(batch.row(i).size());
-        for (const RayCounts::Count& count : batch.row(i))
-            ++sizes[count.patch];
+        for (const std::uint32_t word : batch.row(i))
+            ++sizes[words.column(word)];
     }
     const HitsOfOthers others = hits_of_others(batch, sizes);
     for (std::uint32_t i = 0; i < n; ++i)
         if (!own_.owns(i))
             sizes[i] = 0;
-    for (const std::vector<RayCounts::Count>& of_rank : others.hits)
-        for (const RayCounts::Count& count : of_rank)
-            ++sizes[count.patch];
+    for (const std::vector<std::uint32_t>& of_rank : others.hits)
+        for (const std::uint32_t word : of_rank)
+            ++sizes[words.column(word)];
     rows_ = SparseRows(std::move(sizes));
     std::vector<MatrixEntry*> next(n); // null: another rank's
     for (std::uint32_t i = 0; i < n; ++i)
         if (own_.owns(i))
             next[i] = rows_.to_write(i) + batch.row(i).size();
-    const auto value_of = [&](std::uint32_t i, std::uint32_t j, std::uint32_t hits) {
-        return static_cast<float>(hits / (rays_per_area[i] + rays_per_area[j]));
+    const auto value_of = [&](std::uint32_t i, std::uint32_t j, std::uint32_t word) {
+        return static_cast<float>(words.count(word) / (rays_per_area[i] + rays_per_area[j]));
     };
     std::vector<std::size_t> hits_read(others.hits.size()), sizes_read(others.hits.size());
     for (std::uint32_t i = 0; i < n; ++i) {
         MatrixEntry* seen = rows_.to_write(i);
-        for (const auto& [j, hits] : batch.row(i)) {
-            const float value = value_of(i, j, hits);
+        for (const std::uint32_t word : batch.row(i)) {
+            const std::uint32_t j = words.column(word);
+            const float value = value_of(i, j, word);
             *seen++ = {j, value};
             if (next[j])
                 *next[j]++ = {i, value};
@@ -158,8 +160,10 @@ void ExchangeMatrix::store(const RayCounts& batch) {
         const auto hits_of = std::span(others.hits[owner]).subspan(hits_read[owner]);
         const std::uint32_t size = others.sizes[owner][sizes_read[owner]++];
         hits_read[owner] += size;
-        for (const auto& [j, hits] : hits_of.first(size))
-            *next[j]++ = {i, value_of(i, j, hits)};
+        for (const std::uint32_t word : hits_of.first(size)) {
+            const std::uint32_t j = words.column(word);
+            *next[j]++ = {i, value_of(i, j, word)};
+        }
     }
 }
 

@@ -21,6 +21,9 @@ namespace {
 /// The largest number of rays of a row that are traced at once; longer rows are traced in parts.
 constexpr std::uint32_t rays_in_batch = 1u << 14;
 
+/// The bytes of a patch that was hit and its hits, as they are saved.
+constexpr std::size_t saved_bytes = 2 * sizeof(std::uint32_t);
+
 /// Draws some of a block's rays. Of the four dimensions the first two are the best distributed.
 void draw(const PatchStart& start, const SobolBlocks<4>& points, std::size_t first,
           std::size_t count, std::vector<Ray>& rays) {
@@ -36,50 +39,52 @@ void draw(const PatchStart& start, const SobolBlocks<4>& points, std::size_t fir
 
 RayCounts::RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed, const Ranks& ranks)
     : mesh_(mesh), tracer_(tracer), seed_(seed), own_(ranks, mesh.patches().size()),
-      rows_(mesh.patches().size()), blocks_((rows_.size() + rows_per_block - 1) / rows_per_block) {}
+      words_(mesh.patches().size()), rows_(mesh.patches().size()),
+      blocks_((rows_.size() + rows_per_block - 1) / rows_per_block) {}
 
 /// A block of rows that is built anew from its counts and what was hit since.
 class RayCounts::Tally {
   public:
-    explicit Tally(std::size_t patches) : place_(patches) {}
+    explicit Tally(std::size_t patches) : words_(patches), place_(patches) {}
 
     /// Begins another row, which has these counts already.
-    void begin_row(std::span<const Count> counted) {
+    void begin_row(std::span<const std::uint32_t> counted) {
         end_row();
-        for (const Count& count : counted) {
-            counts_.push_back(count);
-            place_[count.patch] = size();
+        for (const std::uint32_t word : counted) {
+            counts_.push_back(word);
+            place_[words_.column(word)] = size();
         }
         ends_.push_back(size());
     }
     /// Adds a hit to the last row.
     void add(std::uint32_t patch) {
         std::uint32_t& place = place_[patch];
-        if (place == 0) {
-            counts_.push_back({patch, 0});
+        if (place == 0 || words_.is_full(counts_[place - 1])) {
+            counts_.push_back(words_.pack(patch, 0));
             place = size();
         }
-        ++counts_[place - 1].hits;
+        counts_[place - 1] += words_.pack(0, 1);
     }
     void end_row() {
         if (ends_.empty())
             return;
         for (std::size_t k = ends_.size() > 1 ? ends_[ends_.size() - 2] : 0; k < size(); ++k)
-            place_[counts_[k].patch] = 0;
+            place_[words_.column(counts_[k])] = 0;
         ends_.back() = size();
     }
     void clear() {
         counts_.clear();
         ends_.clear();
     }
-    [[nodiscard]] std::span<const Count> counts() const { return counts_; }
+    [[nodiscard]] std::span<const std::uint32_t> counts() const { return counts_; }
     /// Returns, by row, the end of its counts.
     [[nodiscard]] std::span<const std::uint32_t> ends() const { return ends_; }
 
   private:
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(counts_.size()); }
 
-    std::vector<Count> counts_;
+    CountWords words_;
+    std::vector<std::uint32_t> counts_;
     std::vector<std::uint32_t> ends_;
     std::vector<std::uint32_t> place_; ///< one more than the index by patch in the last row, or 0
 };
@@ -205,9 +210,9 @@ void RayCounts::save_row(std::uint32_t patch, StateWriter& state) const {
     for (const std::uint32_t rays : {of.rays, of.escaped, of.absorbed})
         state.add(rays);
     state.add(std::uint64_t{row(patch).size()});
-    for (const Count& count : row(patch)) {
-        state.add(count.patch);
-        state.add(count.hits);
+    for (const std::uint32_t word : row(patch)) {
+        state.add(words_.column(word));
+        state.add(words_.count(word));
     }
 }
 
@@ -232,30 +237,29 @@ void RayCounts::save(StateWriter& state) const {
         std::string_view& rows = left[own_.owner(i)];
         constexpr std::size_t before_size = 3 * sizeof(std::uint32_t);
         const std::uint64_t hit = StateReader(rows.substr(before_size)).whole();
-        const std::size_t size = before_size + sizeof(hit) + hit * sizeof(Count);
+        const std::size_t size = before_size + sizeof(hit) + hit * saved_bytes;
         state.append(rows.substr(0, size));
         rows.remove_prefix(size);
     }
 }
 
 void RayCounts::load(StateReader& state) {
-    std::vector<std::uint32_t> last_row(rows_.size(), none);
     for (std::uint32_t i = 0; i < rows_.size(); ++i) {
         for (std::uint32_t* rays : {&rows_[i].rays, &rows_[i].escaped, &rows_[i].absorbed})
             state.get(*rays);
         std::uint64_t sum = std::uint64_t{rows_[i].escaped} + rows_[i].absorbed;
-        std::vector<Count>& block = blocks_[i / rows_per_block];
-        for (std::size_t left = state.count(sizeof(Count)); left > 0; --left) {
-            Count count{};
-            state.get(count.patch);
-            state.get(count.hits);
-            const bool once =
-                count.patch < rows_.size() && std::exchange(last_row[count.patch], i) != i;
-            if (!once || count.hits == 0)
-                throw StateError("a patch is no patch, or counted twice");
-            sum += count.hits;
-            if (own_.owns(i))
-                block.push_back(count);
+        std::vector<std::uint32_t>& block = blocks_[i / rows_per_block];
+        for (std::size_t left = state.count(saved_bytes); left > 0; --left) {
+            std::uint32_t patch = 0, hits = 0;
+            state.get(patch);
+            state.get(hits);
+            if (patch >= rows_.size() || hits == 0)
+                throw StateError("a patch is no patch, or was not hit");
+            sum += hits;
+            for (std::uint32_t part = 0; own_.owns(i) && hits > 0; hits -= part) {
+                part = std::min(hits, words_.max_count());
+                block.push_back(words_.pack(patch, part));
+            }
         }
         // Every ray has hit something, once.
         if (sum != rows_[i].rays)
@@ -266,12 +270,16 @@ void RayCounts::load(StateReader& state) {
     }
 }
 
+std::size_t RayCounts::own_words() const {
+    std::size_t words = 0;
+    for (const std::vector<std::uint32_t>& block : blocks_)
+        words += block.size();
+    return words;
+}
+
 std::uint64_t RayCounts::bytes() const {
-    std::uint64_t counts = 0;
-    for (const std::vector<Count>& block : blocks_)
-        counts += block.size();
     return rows_.size() * sizeof(Row) + blocks_.size() * sizeof(blocks_[0]) +
-           own_.ranks().sum(counts) * sizeof(Count);
+           own_.ranks().sum(std::uint64_t{own_words()}) * sizeof(std::uint32_t);
 }
 
 } // namespace hemilux

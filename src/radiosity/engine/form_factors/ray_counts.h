@@ -6,6 +6,7 @@
 #include "bvh/tracer.h"
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/sparse/count_words.h"
 
 #include <cstdint>
 #include <span>
@@ -20,11 +21,6 @@ struct Monitor;
 
 class RayCounts {
   public:
-    /// A patch that was hit, and the number of hits.
-    struct Count {
-        std::uint32_t patch, hits;
-    };
-
     /// Makes counts without rays. Different seeds give independent batches. The mesh, the tracer
     /// and the ranks outlive this. Each of the ranks traces the rays of its patches and keeps what
     /// they hit.
@@ -49,18 +45,23 @@ class RayCounts {
     [[nodiscard]] std::uint32_t rays(std::uint32_t patch) const { return rows_[patch].rays; }
     /// Returns the patches whose row() this rank has.
     [[nodiscard]] const OwnBlocks& own_rows() const { return own_; }
-    /// Returns each patch that was hit, listed once, in the order of first hits. The row is empty
-    /// where it is another rank's.
-    [[nodiscard]] std::span<const Count> row(std::uint32_t patch) const {
+    /// Returns the patches that were hit and how often, in the order of first hits. A patch is
+    /// listed again only where its hits do not fit into a word. The row is empty where it is
+    /// another rank's.
+    [[nodiscard]] std::span<const std::uint32_t> row(std::uint32_t patch) const {
         const std::uint32_t begin = patch % rows_per_block > 0 ? rows_[patch - 1].end : 0;
         return std::span(blocks_[patch / rows_per_block]).subspan(begin, rows_[patch].end - begin);
     }
+    /// Returns how the words of rows hold patches and hits.
+    [[nodiscard]] const CountWords& words() const { return words_; }
     /// Returns the number of rays that left the scene and so met no patch. Those of absorbed() fell
     /// on the back of a face.
     [[nodiscard]] std::uint32_t escaped(std::uint32_t patch) const { return rows_[patch].escaped; }
     [[nodiscard]] std::uint32_t absorbed(std::uint32_t patch) const {
         return rows_[patch].absorbed;
     }
+    /// Returns the number of words of this rank's rows.
+    [[nodiscard]] std::size_t own_words() const;
     /// Returns the memory of all ranks, which all call this and the following functions.
     [[nodiscard]] std::uint64_t bytes() const;
 
@@ -89,8 +90,9 @@ class RayCounts {
     const Tracer& tracer_;
     std::uint64_t seed_;
     OwnBlocks own_;
+    CountWords words_;
     std::vector<Row> rows_;
-    std::vector<std::vector<Count>> blocks_; ///< the counts of some rows each
+    std::vector<std::vector<std::uint32_t>> blocks_; ///< the words of some rows each
 };
 
 } // namespace hemilux

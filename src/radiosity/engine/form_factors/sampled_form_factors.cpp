@@ -85,16 +85,18 @@ bool SampledFormFactors::all_receive() const {
 }
 
 /// Returns c_ij + c_ji, by row and patch.
-std::vector<std::vector<RayCounts::Count>> SampledFormFactors::merged_counts() const {
+std::vector<std::vector<SampledFormFactors::PatchHits>> SampledFormFactors::merged_counts() const {
     const auto patches = static_cast<std::uint32_t>(mesh_.patches().size());
-    std::vector<std::vector<RayCounts::Count>> merged(patches);
+    const CountWords& words = counts_.words();
+    std::vector<std::vector<PatchHits>> merged(patches);
     for (std::uint32_t i = 0; i < patches; ++i)
-        for (const RayCounts::Count& c : counts_.row(i)) {
-            merged[i].push_back(c);
-            merged[c.patch].push_back({i, c.hits});
+        for (const std::uint32_t word : counts_.row(i)) {
+            const std::uint32_t j = words.column(word), hits = words.count(word);
+            merged[i].push_back({j, hits});
+            merged[j].push_back({i, hits});
         }
     for (auto& row : merged) {
-        std::ranges::sort(row, {}, &RayCounts::Count::patch);
+        std::ranges::sort(row, {}, &PatchHits::patch);
         std::size_t kept = 0;
         for (std::size_t k = 0; k < row.size(); ++k) {
             if (kept > 0 && row[kept - 1].patch == row[k].patch)
@@ -138,7 +140,7 @@ SparseMatrix SampledFormFactors::matrix() const {
         const std::size_t first = f.value.size();
         double sum = 0;
         const bool shoots = needs_.power(i);
-        for (const RayCounts::Count& c : merged[i])
+        for (const PatchHits& c : merged[i])
             if (!shoots || !is_emitter_[c.patch]) {
                 f.column.push_back(c.patch);
                 f.value.push_back(factor_per_hit(i, c.patch) * c.hits);

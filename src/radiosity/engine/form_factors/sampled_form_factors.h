@@ -57,7 +57,10 @@ class SampledFormFactors {
 
   private:
     std::uint64_t trace_emitters(std::uint32_t patch, std::uint32_t begin, std::uint32_t end);
-    [[nodiscard]] std::vector<std::vector<RayCounts::Count>> merged_counts() const;
+    struct PatchHits {
+        std::uint32_t patch, hits;
+    };
+    [[nodiscard]] std::vector<std::vector<PatchHits>> merged_counts() const;
     [[nodiscard]] std::uint32_t emitter_samples(std::uint32_t rays) const;
     [[nodiscard]] double factor_per_hit(std::uint32_t i, std::uint32_t j) const;
 

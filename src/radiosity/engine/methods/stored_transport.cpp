@@ -54,8 +54,9 @@ namespace {
 
 constexpr unsigned batches = StoredRays::batches;
 
-/// The bytes that are needed to put counts together, for each byte of them.
-constexpr double merging = 3.5;
+/// The bytes that are needed to put counts together, for each byte of them: they have half as many
+/// as an entry of a matrix, and each stands in two rows.
+constexpr double merging = 6;
 
 /// The bytes of a patch besides its rays: the light of each batch, the rows of the system, the
 /// errors, the plan of its rays.
@@ -216,8 +217,8 @@ class StoredTransportSolver final : public Solver, public KeepsRays {
     void combine(const TransportSystem::Solved& solved) {
         const ExchangeMatrix& all = solved.factors;
         const RowSpread rows = spread_of_rows(all, set_light(), workers_);
-        const TransportResult result{input_.mesh, system_,        light_,       all,
-                                     rows,        rays_.direct(), input_.target};
+        const TransportResult result{input_.mesh, system_, light_,         rays_.counts(),
+                                     all,         rows,    rays_.direct(), input_.target};
         const BatchSpread spread = spread_of_batches(result, aim_, workers_);
         TransportErrors errors = errors_of(result, workers_);
         if (input_.options.keep_all)

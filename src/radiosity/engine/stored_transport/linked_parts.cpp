@@ -1,6 +1,5 @@
 #include "radiosity/engine/stored_transport/linked_parts.h"
 
-#include "radiosity/engine/form_factors/exchange_matrix.h"
 #include "radiosity/engine/form_factors/ray_counts.h"
 #include "radiosity/engine/sparse/disjoint_sets.h"
 
@@ -50,23 +49,14 @@ LinkedParts parts_of_all(DisjointSets& sets, const OwnBlocks& own, std::uint32_t
 
 } // namespace
 
-LinkedParts find_linked_parts(const ExchangeMatrix& factors) {
-    const auto n = static_cast<std::uint32_t>(factors.lost().size());
-    DisjointSets sets(n);
-    for (std::uint32_t i = 0; i < n; ++i)
-        for (const MatrixEntry& entry : factors.row(i))
-            if (entry.column < i) // the matrix is symmetric
-                sets.join(i, entry.column);
-    return parts_of_all(sets, factors.own_rows(), n);
-}
-
 LinkedParts find_linked_parts(std::span<const RayCounts> batches) {
-    DisjointSets sets(batches[0].patches());
+    const std::uint32_t patches = batches[0].patches();
+    DisjointSets sets(patches);
     for (const RayCounts& batch : batches)
-        for (std::uint32_t i = 0; i < batch.patches(); ++i)
-            for (const RayCounts::Count& seen : batch.row(i))
-                sets.join(i, seen.patch);
-    return parts_of_all(sets, batches[0].own_rows(), batches[0].patches());
+        for (std::uint32_t i = 0; i < patches; ++i)
+            for (const std::uint32_t word : batch.row(i))
+                sets.join(i, batch.words().column(word));
+    return parts_of_all(sets, batches[0].own_rows(), patches);
 }
 
 } // namespace hemilux

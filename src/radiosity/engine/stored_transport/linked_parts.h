@@ -9,7 +9,6 @@
 
 namespace hemilux {
 
-class ExchangeMatrix;
 class RayCounts;
 
 struct LinkedParts {
@@ -20,8 +19,6 @@ struct LinkedParts {
 /// Finds the parts in O(entries) time. Two patches are of one part if a ray has passed between
 /// them, or between each of them and a third. Parts are numbered in the order of their first
 /// patches.
-[[nodiscard]] LinkedParts find_linked_parts(const ExchangeMatrix& factors);
-/// Finds the same from several batches of rays.
 [[nodiscard]] LinkedParts find_linked_parts(std::span<const RayCounts> batches);
 
 } // namespace hemilux

@@ -40,7 +40,7 @@ class Account {
   public:
     explicit Account(const TransportResult& result)
         : result_(result), area_(result.system.area()), rho_(result.system.reflectance()),
-          rays_(result.factors.rays()), parts_(find_linked_parts(result.factors)),
+          rays_(result.factors.rays()), parts_(find_linked_parts(result.counts)),
           ledgers_(parts_.count) {
         const std::size_t n = area_.size();
         lit_.resize(n);

@@ -22,6 +22,7 @@ class ExchangeMatrix;
 class BatchLight;
 class TransportSystem;
 class Mesh;
+class RayCounts;
 class Workers;
 struct RowSpread;
 
@@ -45,7 +46,8 @@ struct TransportResult {
     const Mesh& mesh;
     const TransportSystem& system;
     const BatchLight& light;
-    const ExchangeMatrix& factors; ///< factors of all batches
+    std::span<const RayCounts> counts; ///< random rays, by batch
+    const ExchangeMatrix& factors;     ///< factors of all batches
     const RowSpread& rows;
     const DirectLight& direct;
     std::span<const double> weight = {}; ///< weights by patch, in the sums of errors; empty: 1
