@@ -208,7 +208,7 @@ void RayPlan::split(double rays, const ErrorSoFar& known) {
     const double least = has_target() ? min_of_kind * added : 0;
     now_.random =
         std::clamp(share * rays, before_.random + least, rays - before_.to_emitters - least);
-    now_.to_emitters = rays - now_.random;
+    now_.to_emitters = std::max(rays - now_.random, before_.to_emitters); // may be rounded below it
 }
 
 /// Returns the error that the planned rays will probably leave.
