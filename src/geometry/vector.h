@@ -18,4 +18,11 @@ using Vec3 = glm::dvec3;
     return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
+/// Returns which of the six directions along the axes a vector follows most: twice its largest
+/// axis, and one more where it points down it.
+[[nodiscard]] inline unsigned main_direction(const Vec3& v) {
+    const int axis = largest_axis(v);
+    return 2 * static_cast<unsigned>(axis) + (v[axis] < 0 ? 1 : 0);
+}
+
 } // namespace hemilux

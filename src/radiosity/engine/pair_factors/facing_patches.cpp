@@ -1,7 +1,6 @@
 #include "radiosity/engine/pair_factors/facing_patches.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <numeric>
 
@@ -9,15 +8,6 @@ namespace hemilux {
 namespace {
 
 constexpr std::uint32_t patches_of_leaf = 16;
-
-/// Returns twice the axis along which a vector is longest, and one more where it points down it.
-int main_direction(const Vec3& vector) {
-    int axis = 0;
-    for (int k = 1; k < 3; ++k)
-        if (std::abs(vector[k]) > std::abs(vector[axis]))
-            axis = k;
-    return 2 * axis + (vector[axis] < 0 ? 1 : 0);
-}
 
 } // namespace
 
@@ -83,10 +73,7 @@ void FacingPatches::divide(std::uint32_t begin, std::uint32_t end) {
         Box centres;
         for (std::uint32_t at = begin; at < end; ++at)
             centres.include(faces_[order_[at]].centre);
-        const Vec3 extent = centres.extent();
-        int axis = extent.x >= extent.y ? 0 : 1;
-        if (extent.z > extent[axis])
-            axis = 2;
+        const int axis = largest_axis(centres.extent());
         const std::uint32_t middle = begin + (end - begin) / 2;
         const auto at = [this](std::uint32_t place) {
             return order_.begin() + static_cast<std::ptrdiff_t>(place);

@@ -34,15 +34,6 @@ bool shows_its_back(const Polygon& shape, const Patch& to) {
     });
 }
 
-/// Returns twice the axis along which a vector is longest, and one more where it points down it.
-std::size_t main_direction(const Vec3& vector) {
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-        if (std::abs(vector[static_cast<int>(k)]) > std::abs(vector[static_cast<int>(axis)]))
-            axis = k;
-    return 2 * axis + (vector[static_cast<int>(axis)] < 0 ? 1 : 0);
-}
-
 } // namespace
 
 FacingBacks::FacingBacks(const Mesh& mesh) : mesh_(mesh) {
