@@ -1,6 +1,7 @@
 #include "radiosity/engine/heat/heat_exchange.h"
 
 #include "geometry/elementary.h"
+#include "radiosity/engine/sparse/diagonal_gradients.h"
 #include "radiosity/engine/sparse/disjoint_sets.h"
 #include "radiosity/paper/sampling/rng.h"
 
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -20,6 +22,9 @@ constexpr double solved = 1e-12, solved_sample = 1e-4;
 constexpr int max_iterations = 10'000;
 
 constexpr std::size_t rows_at_a_time = 64;
+
+constexpr HeatEstimate unknown{std::numeric_limits<double>::quiet_NaN(),
+                               std::numeric_limits<double>::quiet_NaN()};
 
 double radiation_of(double temperature) {
     return stefan_boltzmann * elementary::whole_power(temperature, 4);
@@ -64,15 +69,26 @@ class Enclosure {
     [[nodiscard]] bool is_fixed(std::size_t i) const { return is_fixed_[i]; }
 
     /// Returns the heat that surface i gets from others beyond what it would give them, over A_i:
-    /// sum_j F_ij (J_j - J_i), and so with sky and ground.
-    [[nodiscard]] double gain(std::size_t i, std::span<const double> radiosity) const {
+    /// sum_j F_ij (J_j - J_i), and so with sky and ground, which give `open` times what they do.
+    [[nodiscard]] double gain(std::size_t i, std::span<const double> radiosity,
+                              double open = 1) const {
         double gained = 0;
         for (std::size_t k = factors_.row_begin[i]; k < factors_.row_begin[i + 1]; ++k)
             gained += factors_.factor[k] * (radiosity[factors_.column[k]] - radiosity[i]);
         for (std::size_t k = 0; k < opens; ++k)
             if (open_radiation_[k])
-                gained += factors_.open[i][k].factor * (*open_radiation_[k] - radiosity[i]);
+                gained += factors_.open[i][k].factor * (open * *open_radiation_[k] - radiosity[i]);
         return gained;
+    }
+    /// Returns the heat that sky or ground gives to all in this way.
+    [[nodiscard]] double heat_of_open(std::size_t k, std::span<const double> radiosity,
+                                      double open = 1) const {
+        double heat = 0;
+        for (std::size_t i = 0; i < rows() && open_radiation_[k]; ++i)
+            if (is_fixed_[i])
+                heat += factors_.area[i] * factors_.open[i][k].factor *
+                        (open * *open_radiation_[k] - radiosity[i]);
+        return heat;
     }
 
     /// Returns J of all, by conjugate gradients from those that are known.
@@ -83,7 +99,7 @@ class Enclosure {
                 rest[i] = factors_.area[i] * (gain(i, radiosity) + radiosity[i] -
                                               (radiosity[i] - given_[i]) / returned_[i]);
         });
-        add_solution(rest, solved, radiosity);
+        add_light(std::move(rest), solved, radiosity);
         return radiosity;
     }
 
@@ -102,9 +118,8 @@ class Enclosure {
                 body(i);
         });
     }
-    /// Adds the solution for a right-hand side, the residual of x before (Hestenes and Stiefel
-    /// 1952, preconditioned by the diagonal).
-    void add_solution(std::vector<double> residual, double tolerance, std::vector<double>& x) const;
+    /// Adds the J of a right-hand side, the residual of x before.
+    void add_light(std::vector<double> residual, double tolerance, std::vector<double>& x) const;
 
     const ViewFactors& factors_;
     const Workers& workers_;
@@ -114,48 +129,26 @@ class Enclosure {
     std::vector<double> diagonal_;                            ///< 0 where J is known
 };
 
-void Enclosure::add_solution(std::vector<double> residual, double tolerance,
-                             std::vector<double>& x) const {
-    std::vector<double> direction(rows()), product(rows()), scaled(rows());
-    const auto precondition = [&] {
-        double sum = 0;
-        for (std::size_t i = 0; i < rows(); ++i) {
-            scaled[i] = diagonal_[i] > 0 ? residual[i] / diagonal_[i] : 0;
-            sum += scaled[i] * residual[i];
-        }
-        return sum;
-    };
-    double size = precondition();
-    double scale = size;
+void Enclosure::add_light(std::vector<double> residual, double tolerance,
+                          std::vector<double>& x) const {
+    double scale = 0;
     for (std::size_t i = 0; i < rows(); ++i)
         scale = std::max(scale, diagonal_[i] * x[i] * x[i]);
-    const double enough = tolerance * tolerance * scale;
-    direction = scaled;
-    for (int k = 0; k < max_iterations && size > enough; ++k) {
+    const auto multiply = [this](std::span<const double> light, std::span<double> product) {
         for_rows([&](std::size_t i) {
             if (!(diagonal_[i] > 0))
                 return;
             double off = 0;
             for (std::size_t at = factors_.row_begin[i]; at < factors_.row_begin[i + 1]; ++at)
                 if (factors_.column[at] != i)
-                    off += factors_.factor[at] * direction[factors_.column[at]];
-            product[i] = diagonal_[i] * direction[i] - factors_.area[i] * off;
+                    off += factors_.factor[at] * light[factors_.column[at]];
+            product[i] = diagonal_[i] * light[i] - factors_.area[i] * off;
         });
-        double curvature = 0;
-        for (std::size_t i = 0; i < rows(); ++i)
-            curvature += direction[i] * product[i];
-        if (!(curvature > 0))
-            break;
-        const double step = size / curvature;
-        for (std::size_t i = 0; i < rows(); ++i) {
-            x[i] += step * direction[i];
-            residual[i] -= step * product[i];
-        }
-        const double before = size;
-        size = precondition();
-        for (std::size_t i = 0; i < rows(); ++i)
-            direction[i] = scaled[i] + size / before * direction[i];
-    }
+    };
+    add_solution(
+        diagonal_, std::move(residual),
+        {.square = tolerance * tolerance, .least_scale = scale, .iterations = max_iterations},
+        multiply, x);
 }
 
 Enclosure::Sample Enclosure::sample(std::span<const double> radiosity, std::uint64_t seed) const {
@@ -184,27 +177,18 @@ Enclosure::Sample Enclosure::sample(std::span<const double> radiosity, std::uint
     std::vector<double> change(rows()), right(rows());
     for (std::size_t i = 0; i < rows(); ++i)
         right[i] = returned_[i] > 0 ? factors_.area[i] * moved[i] : 0;
-    add_solution(right, solved_sample, change);
-    for_rows([&](std::size_t i) {
-        double arrives = moved[i] + change[i];
-        for (std::size_t k = factors_.row_begin[i]; k < factors_.row_begin[i + 1]; ++k)
-            arrives += factors_.factor[k] * (change[factors_.column[k]] - change[i]);
-        for (std::size_t k = 0; k < opens; ++k)
-            if (open_radiation_[k])
-                arrives -= factors_.open[i][k].factor * change[i];
-        sample.irradiation[i] = arrives;
-    });
-    for (std::size_t i = 0; i < rows(); ++i)
-        for (std::size_t k = 0; k < opens; ++k)
-            if (open_radiation_[k])
-                sample.open[k] -= factors_.area[i] * factors_.open[i][k].factor * change[i];
+    add_light(std::move(right), solved_sample, change);
+    for_rows(
+        [&](std::size_t i) { sample.irradiation[i] = moved[i] + change[i] + gain(i, change, 0); });
+    for (std::size_t k = 0; k < opens; ++k)
+        sample.open[k] += heat_of_open(k, change, 0);
     return sample;
 }
 
 /// Returns the temperature of a radiation sigma T^4 [K], with its error.
 HeatEstimate temperature_of(const HeatEstimate& radiation) {
     if (!(radiation.value >= 0))
-        return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+        return unknown;
     const double temperature = std::sqrt(std::sqrt(radiation.value / stefan_boltzmann));
     if (!(radiation.error > 0))
         return {temperature, 0};
@@ -226,10 +210,8 @@ SurfaceHeat heat_of(const GreySurface& surface, const HeatEstimate& irradiation)
         return heat;
     }
     heat.flux.value = surface.flux;
-    const double nothing = std::numeric_limits<double>::quiet_NaN();
     heat.temperature =
-        e > 0 ? temperature_of({surface.flux / e + irradiation.value, irradiation.error})
-              : HeatEstimate{nothing, nothing};
+        e > 0 ? temperature_of({surface.flux / e + irradiation.value, irradiation.error}) : unknown;
     return heat;
 }
 
@@ -262,13 +244,10 @@ HeatExchange exchange_heat(const ViewFactors& factors, std::span<const GreySurfa
     const std::vector<double> radiosity = enclosure.radiosity();
     std::vector<HeatEstimate> irradiation(factors.rows());
     HeatExchange exchange;
-    for (std::size_t i = 0; i < factors.rows(); ++i) {
+    for (std::size_t i = 0; i < factors.rows(); ++i)
         irradiation[i].value = radiosity[i] + enclosure.gain(i, radiosity);
-        for (std::size_t k = 0; k < opens; ++k)
-            if (options.open[k] && enclosure.is_fixed(i))
-                exchange.open[k].value += factors.area[i] * factors.open[i][k].factor *
-                                          (radiation_of(*options.open[k]) - radiosity[i]);
-    }
+    for (std::size_t k = 0; k < opens; ++k)
+        exchange.open[k].value = enclosure.heat_of_open(k, radiosity);
     for (int s = 0; s < samples; ++s) {
         const Enclosure::Sample sample =
             enclosure.sample(radiosity, hash_words({options.seed, static_cast<std::uint64_t>(s)}));
@@ -281,8 +260,6 @@ HeatExchange exchange_heat(const ViewFactors& factors, std::span<const GreySurfa
         open.error = std::sqrt(open.error);
     for (std::size_t i = 0; i < factors.rows(); ++i) {
         irradiation[i].error = std::sqrt(irradiation[i].error);
-        constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-        const HeatEstimate unknown{nothing, nothing};
         exchange.surfaces.push_back(enclosure.is_fixed(i) ? heat_of(surfaces[i], irradiation[i])
                                                           : SurfaceHeat{unknown, unknown, unknown});
     }

@@ -1,6 +1,7 @@
 #include "radiosity/engine/view_factors/closing.h"
 
 #include "geometry/elementary.h"
+#include "radiosity/engine/sparse/diagonal_gradients.h"
 
 #include <algorithm>
 #include <cmath>
@@ -149,39 +150,12 @@ void Rows::audit_before(ClosingAudit& audit) const {
     audit.chance_rms = std::sqrt(chances / static_cast<double>(rows));
 }
 
-/// Conjugate gradients, preconditioned by the diagonal (Hestenes and Stiefel 1952).
 void Rows::solve_and_move() {
     const std::size_t rows = lacking_.size();
-    std::vector<double> multiplier(rows), residual = lacking_, direction(rows), product(rows),
-                                          scaled(rows);
-    const auto precondition = [&] {
-        double sum = 0;
-        for (std::size_t i = 0; i < rows; ++i) {
-            scaled[i] = diagonal_[i] > 0 ? residual[i] / diagonal_[i] : 0;
-            sum += scaled[i] * residual[i];
-        }
-        return sum;
-    };
-    double size = precondition();
-    const double enough = 1e-28 * size;
-    direction = scaled;
-    for (int k = 0; k < max_iterations && size > enough && size > 0; ++k) {
-        multiply(direction, product);
-        double curvature = 0;
-        for (std::size_t i = 0; i < rows; ++i)
-            curvature += direction[i] * product[i];
-        if (!(curvature > 0))
-            break;
-        const double step = size / curvature;
-        for (std::size_t i = 0; i < rows; ++i) {
-            multiplier[i] += step * direction[i];
-            residual[i] -= step * product[i];
-        }
-        const double before = size;
-        size = precondition();
-        for (std::size_t i = 0; i < rows; ++i)
-            direction[i] = scaled[i] + size / before * direction[i];
-    }
+    std::vector<double> multiplier(rows);
+    add_solution(
+        diagonal_, lacking_, {.square = 1e-28, .iterations = max_iterations},
+        [this](std::span<const double> x, std::span<double> y) { multiply(x, y); }, multiplier);
     for (std::size_t i = 0; i < rows; ++i) {
         for (std::size_t k = 0; k < opens; ++k)
             list_.open[i][k].factor +=

@@ -81,7 +81,6 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
     list.open.resize(patches);
     const std::size_t bands = options.bands ? options.bands->size() : 0;
     list.bands.resize(patches * bands);
-    list.pairs.resize(patches);
     PairsMemory memory(options.ask);
     std::vector<std::vector<SeenPatch>> seen_patches(patches);
     const FacingBacks backs(mesh);
@@ -146,8 +145,8 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
     }
     found.work.rays += patches * options.rays;
     find_unlisted(list, rows, options.rays);
-    for (std::size_t i = 0; i < patches; ++i)
-        list.pairs[i] = std::move(rows[i].pairs);
+    for (MeasuredRow& row : rows)
+        list.pairs.push_back(std::move(row.pairs));
     return found;
 }
 
