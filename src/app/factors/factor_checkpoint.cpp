@@ -43,10 +43,7 @@ std::uint64_t work_of(std::span<const MeasuredRow> rows) {
 } // namespace
 
 void check_checkpoint_options(const ViewFactorSettings& settings) {
-    const CheckpointSettings& asked = settings.checkpoint;
-    if (asked.every && asked.path.empty())
-        throw UsageError("--every says how often the file of --checkpoint is written; add it");
-    if (asked.path.empty() && asked.resumed.empty())
+    if (!uses_checkpoint(settings.checkpoint))
         return;
     if (settings.aim.of == FactorAim::Of::sky || settings.aim.of == FactorAim::Of::largest)
         throw UsageError("--checkpoint and --resume: --of " + text_of(settings.aim) +
@@ -57,13 +54,11 @@ void check_checkpoint_options(const ViewFactorSettings& settings) {
 }
 
 void check_checkpoint_files(const ViewFactorSettings& settings, RunFiles& files) {
-    const auto& [path, resumed, every] = settings.checkpoint;
-    if (!path.empty()) {
+    if (const std::string& path = settings.checkpoint.path; !path.empty()) {
         files.write("checkpoint", path);
         check_writable(path);
     }
-    if (!resumed.empty() && resumed != path && identity_of(resumed) != identity_of(path))
-        files.read("file of --resume", resumed);
+    read_resumed_file(settings.checkpoint, files);
 }
 
 FactorCheckpoint::FactorCheckpoint(const ViewFactorSettings& settings) : settings_(settings) {

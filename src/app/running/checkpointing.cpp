@@ -49,10 +49,7 @@ std::string default_of(const std::string& name) {
 } // namespace
 
 void check_checkpoint_options(const SolveSettings& settings) {
-    const CheckpointSettings& asked = settings.checkpoint;
-    if (asked.every && asked.path.empty())
-        throw UsageError("--every says how often the file of --checkpoint is written; add it");
-    if (asked.path.empty() && asked.resumed.empty())
+    if (!uses_checkpoint(settings.checkpoint))
         return;
     if (!settings.method->can_resume())
         throw UsageError(
@@ -63,7 +60,7 @@ void check_checkpoint_options(const SolveSettings& settings) {
         if (!option.resumable && option.is_set(settings.options))
             throw UsageError("--checkpoint and --resume: a run with " +
                              option.text(settings.options) + " does not keep its state");
-    if (!asked.resumed.empty() && settings.every_step &&
+    if (!settings.checkpoint.resumed.empty() && settings.every_step &&
         !(settings.view.camera && settings.view.exposure))
         throw UsageError("--every-step after --resume needs --camera and --exposure, which the "
                          "first step would choose");

@@ -1,6 +1,7 @@
 #include "app/running/run_files.h"
 
 #include "app/gathering/lit_file_output.h"
+#include "app/running/same_run.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
 #include "io/files/atomic_file.h"
@@ -81,11 +82,7 @@ void list_inputs(const SolveSettings& settings, RunFiles& files) {
         files.read("file of --points", settings.points.path);
     for (const std::string& path : settings.target.points)
         files.read("file of --for", path);
-    // A run may renew the checkpoint that it goes on from.
-    const auto& [checkpoint, resumed, every] = settings.checkpoint;
-    if (!resumed.empty() && resumed != checkpoint &&
-        identity_of(resumed) != identity_of(checkpoint))
-        files.read("file of --resume", resumed);
+    read_resumed_file(settings.checkpoint, files);
 }
 
 void check_readable(const SolveSettings& settings) {

@@ -1,10 +1,24 @@
 #include "app/running/same_run.h"
 
+#include "app/settings/exit_code.h"
 #include "io/files/error.h"
+#include "io/files/file_identity.h"
 
 #include <algorithm>
 
 namespace hemilux {
+
+bool uses_checkpoint(const CheckpointSettings& settings) {
+    if (settings.every && settings.path.empty())
+        throw UsageError("--every says how often the file of --checkpoint is written; add it");
+    return !settings.path.empty() || !settings.resumed.empty();
+}
+
+void read_resumed_file(const CheckpointSettings& settings, const RunFiles& files) {
+    const auto& [path, resumed, every] = settings;
+    if (!resumed.empty() && resumed != path && identity_of(resumed) != identity_of(path))
+        files.read("file of --resume", resumed);
+}
 
 void check_same_run(const CheckpointOptions& found, const CheckpointOptions& wanted,
                     const std::string& file,

@@ -1,6 +1,9 @@
 #pragma once
-// What a run must have in common with the one whose checkpoint it goes on from.
+// What commands with --checkpoint and --resume share: the check of these options, and what a run
+// must have in common with the one whose checkpoint it goes on from.
 
+#include "app/settings/outputs.h"
+#include "app/settings/settings.h"
 #include "io/results/checkpoint.h"
 
 #include <cstdint>
@@ -8,6 +11,12 @@
 #include <string>
 
 namespace hemilux {
+
+/// Returns whether a checkpoint is read or written. Throws UsageError for --every alone.
+[[nodiscard]] bool uses_checkpoint(const CheckpointSettings& settings);
+
+/// Adds the file of --resume to those that are read, unless the run renews it.
+void read_resumed_file(const CheckpointSettings& settings, const RunFiles& files);
 
 using CheckpointOptions = decltype(Checkpoint::options);
 
