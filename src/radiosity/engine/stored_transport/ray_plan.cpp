@@ -27,6 +27,10 @@ constexpr double aim_below = .97;
 /// the next that is tried.
 constexpr double min_step = 1.1, try_next = 1.04;
 
+/// The power of the rays with which the variance falls from the second step on. The first few rays
+/// of a patch are spread best, and from one step to two it falls with `variance_fall`.
+constexpr double later_variance_fall = 1.25;
+
 /// The share of the mean of shadow rays that a patch gets which no light has reached. It gets few,
 /// but not none, as an emitter may shine through a gap that all of them have missed.
 constexpr double share_of_unlit = 1.0 / 8;
@@ -215,10 +219,10 @@ void RayPlan::split(double rays, const ErrorSoFar& known) {
 double RayPlan::predicted(const ErrorSoFar& known) const {
     const double of_emitters =
         known.variance > 0 ? std::min(known.variance_from_emitters / known.variance, 1.0) : 0;
-    double left = (1 - of_emitters) * elementary::pow(before_.random / now_.random, variance_fall);
+    const double fall = before_.random > first_.random ? later_variance_fall : variance_fall;
+    double left = (1 - of_emitters) * elementary::pow(before_.random / now_.random, fall);
     if (now_.to_emitters > 0)
-        left +=
-            of_emitters * elementary::pow(before_.to_emitters / now_.to_emitters, variance_fall);
+        left += of_emitters * elementary::pow(before_.to_emitters / now_.to_emitters, fall);
     return known.relative * std::sqrt(left);
 }
 
