@@ -21,9 +21,10 @@ constexpr int scalings_of_all = 3;
 constexpr std::size_t entries_for_one_thread = 60'000;
 
 /// Sums value times x[column], in four sums that do not wait for each other.
-double row_sum(std::span<const MatrixEntry> row, std::span<const double> x) {
-    const auto term = [&](const MatrixEntry& entry) {
-        return static_cast<double>(entry.value) * x[entry.column];
+double row_sum(std::span<const std::uint32_t> row, const EntryWords& words,
+               std::span<const double> x) {
+    const auto term = [&, words](std::uint32_t word) {
+        return static_cast<double>(words.value(word)) * x[words.column(word)];
     };
     std::array<double, 4> sum{};
     std::size_t next = 0;
@@ -136,23 +137,26 @@ void ExchangeMatrix::store(const RayCounts& batch) {
     for (const std::vector<std::uint32_t>& of_rank : others.hits)
         for (const std::uint32_t word : of_rank)
             ++sizes[words.column(word)];
-    rows_ = SparseRows(std::move(sizes));
-    std::vector<MatrixEntry*> next(n); // null: another rank's
+    // A patch sees no more of the others than its area.
+    const double largest = n > 0 ? *std::ranges::max_element(area_) : 0;
+    rows_ = SparseRows(std::move(sizes), static_cast<float>(largest));
+    std::vector<std::uint32_t*> next(n); // null: another rank's
     for (std::uint32_t i = 0; i < n; ++i)
         if (own_.owns(i))
             next[i] = rows_.to_write(i) + batch.row(i).size();
-    const auto value_of = [&](std::uint32_t i, std::uint32_t j, std::uint32_t word) {
-        return static_cast<float>(words.count(word) / (rays_per_area[i] + rays_per_area[j]));
+    const auto entry_of = [&](std::uint32_t i, std::uint32_t j, std::uint32_t word) {
+        return rows_.words().pack(
+            i, j, static_cast<float>(words.count(word) / (rays_per_area[i] + rays_per_area[j])));
     };
     std::vector<std::size_t> hits_read(others.hits.size()), sizes_read(others.hits.size());
     for (std::uint32_t i = 0; i < n; ++i) {
-        MatrixEntry* seen = rows_.to_write(i);
+        std::uint32_t* seen = rows_.to_write(i);
         for (const std::uint32_t word : batch.row(i)) {
             const std::uint32_t j = words.column(word);
-            const float value = value_of(i, j, word);
-            *seen++ = {j, value};
+            const std::uint32_t entry = entry_of(i, j, word);
+            *seen++ = entry;
             if (next[j])
-                *next[j]++ = {i, value};
+                *next[j]++ = entry - j + i;
         }
         if (own_.owns(i))
             continue;
@@ -162,7 +166,7 @@ void ExchangeMatrix::store(const RayCounts& batch) {
         hits_read[owner] += size;
         for (const std::uint32_t word : hits_of.first(size)) {
             const std::uint32_t j = words.column(word);
-            *next[j]++ = {i, value_of(i, j, word)};
+            *next[j]++ = entry_of(j, i, word);
         }
     }
 }
@@ -200,9 +204,10 @@ std::vector<double> ExchangeMatrix::due(const Workers& workers) const {
             const double share = (rays_[i] * (1 - kept) + lost / all) / (rays_[i] + 1);
             const double variance = area_[i] * area_[i] * share * (1 - share) / rays_[i];
             double sum = 0, variance_of_sum = 0;
-            for (const MatrixEntry& entry : rows_.row(i)) {
-                sum += entry.value;
-                variance_of_sum += entry.value / (rays_per_area[i] + rays_per_area[entry.column]);
+            for (const std::uint32_t word : rows_.row(i)) {
+                const double value = words().value(word);
+                sum += value;
+                variance_of_sum += value / (rays_per_area[i] + rays_per_area[words().column(word)]);
             }
             if (variance_of_sum > 0)
                 due[i] +=
@@ -224,7 +229,7 @@ void ExchangeMatrix::find_scale(std::span<const double> due, int times, const Wo
         GatheredVector<double>& after = in_turn[static_cast<std::size_t>(k) % 2];
         for_products(workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const double sum = row_sum(rows_.row(i), last);
+                const double sum = row_sum(rows_.row(i), words(), last);
                 after[i] = 1; // where the patch itself has not looked, what others saw is all
                 if (due[i] >= 0)
                     after[i] = sum > 0 ? due[i] / sum : 0;
@@ -244,7 +249,7 @@ void ExchangeMatrix::close(int times, const Workers& workers) {
     per_area_.assign(area_.size(), 0.0);
     for_products(workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const double sum = row_sum(rows_.row(i), scale_);
+            const double sum = row_sum(rows_.row(i), words(), scale_);
             if (scale_[i] > 0 && due[i] >= 0)
                 self_[i] = (due[i] / scale_[i] - sum) / scale_[i];
             if (area_[i] > 0)

@@ -44,9 +44,9 @@ class ExchangeMatrix {
     }
     /// Returns the product of the row i with a vector of such elements.
     [[nodiscard]] Vec3 row_times(std::size_t i, std::span<const Lanes> scaled) const {
-        const std::span<const MatrixEntry> row = rows_.row(i);
+        const std::span<const std::uint32_t> row = rows_.row(i);
         Lanes sum;
-        kernels_->row_times(row.data(), row.size(), scaled.data(), &sum);
+        kernels_->row_times(row.data(), row.size(), words().format(), scaled.data(), &sum);
         const auto channel = [&](int c) {
             return per_area_[i] * (sum.lane[c] + self_[i] * scaled[i].lane[c]);
         };
@@ -81,14 +81,16 @@ class ExchangeMatrix {
 
     /// Returns what patch i exchanges with others; a value is S before it is scaled [local area].
     /// The row is empty where it is another rank's.
-    [[nodiscard]] std::span<const MatrixEntry> row(std::size_t i) const { return rows_.row(i); }
+    [[nodiscard]] std::span<const std::uint32_t> row(std::size_t i) const { return rows_.row(i); }
+    /// Returns how rows hold their entries.
+    [[nodiscard]] const EntryWords& words() const { return rows_.words(); }
     /// Returns an entry for each patch.
     [[nodiscard]] std::span<const EscapeFraction> lost() const { return lost_; }
     /// Returns, by patch, the number of rays that it shot itself.
     [[nodiscard]] std::span<const double> rays() const { return rays_; }
     /// Returns the memory of the rows of all ranks, which all call this.
     [[nodiscard]] std::uint64_t bytes() const {
-        return own_.ranks().sum(rows_.entries()) * sizeof(MatrixEntry);
+        return own_.ranks().sum(rows_.entries()) * sizeof(std::uint32_t);
     }
 
   private:

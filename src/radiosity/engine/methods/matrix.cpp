@@ -24,7 +24,6 @@
 #include "radiosity/engine/linear/hemicube_matrix.h"
 #include "radiosity/engine/linear/surfaces.h"
 #include "radiosity/engine/solving/method.h"
-#include "radiosity/engine/sparse/sparse_rows.h"
 #include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -39,6 +38,10 @@
 
 namespace hemilux {
 namespace {
+
+/// The bytes per form factor at the peak: column, value, and the counts that they come from, with
+/// room to grow.
+constexpr double bytes_per_factor = 32;
 
 constexpr std::size_t batches = 8;
 /// The rays per patch and batch at which the run ends whatever the error.

@@ -15,7 +15,7 @@
 // The method is consistent: the solution depends on what was counted in a non-linear way, so its
 // bias falls as one over the rays, and its error more slowly. It is good nearly everywhere: it
 // needs ten to fifty times fewer rays than shooting, most where light is even and surfaces reflect
-// much. It costs 8 bytes per patch and patch that it saw, and twice as many more to solve.
+// much. It costs 4 bytes per patch and patch that it saw, and twice as many more to solve.
 
 #include "radiosity/engine/stored_transport/page/stored_transport.h"
 #include "radiosity/engine/emitters/direct_light.h"
@@ -54,9 +54,12 @@ namespace {
 
 constexpr unsigned batches = StoredRays::batches;
 
-/// The bytes that are needed to put counts together, for each byte of them: they have half as many
-/// as an entry of a matrix, and each stands in two rows.
-constexpr double merging = 6;
+/// The bytes that are needed to put counts together, for each byte of them: they have as many as an
+/// entry of a matrix, and each stands in two rows.
+constexpr double merging = 4;
+
+/// The bytes of a random ray: a count, two entries, and room to grow.
+constexpr double bytes_per_ray = 16;
 
 /// The bytes of a patch besides its rays: the light of each batch, the rows of the system, the
 /// errors, the plan of its rays.
@@ -371,7 +374,7 @@ extern const Method stored_transport_method{
     .bytes =
         [](const SolveOptions& options, double patches) {
             return bytes_per_patch * patches +
-                   bytes_per_factor * patches * std::min(patches, options.rays);
+                   bytes_per_ray * patches * std::min(patches, options.rays);
         },
     .former_name = "gathering",
 };

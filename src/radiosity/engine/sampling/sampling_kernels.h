@@ -67,9 +67,10 @@ struct PatchOnLine {
     float all;            ///< the largest sum: cells that end there own all that is left
 };
 
-struct MatrixEntry {
-    std::uint32_t column;
-    float value;
+/// How words of 32 bits hold the entries of a sparse matrix (entry_words.h).
+struct EntryFormat {
+    std::uint32_t columns; ///< the bits of the column
+    std::uint32_t least;   ///< what the others, three places lower, lack to be a float's
 };
 
 /// Three channels side by side, and a 0.
@@ -108,7 +109,8 @@ struct SamplingKernels {
                      const double* u, const double* v, double* x, double* y, double* z,
                      std::uint32_t* inside);
     /// Sets `sum` to the sum of value times x[column] over the `count` entries of a row.
-    void (*row_times)(const MatrixEntry* row, std::size_t count, const Lanes* x, Lanes* sum);
+    void (*row_times)(const std::uint32_t* row, std::size_t count, const EntryFormat&,
+                      const Lanes* x, Lanes* sum);
 };
 
 /// Returns the kernels of an instruction set, which must be available.

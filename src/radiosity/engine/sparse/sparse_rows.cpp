@@ -11,24 +11,27 @@ namespace {
 /// sum up to a double without rounding, so the sums are symmetric too.
 class Accumulator {
   public:
-    explicit Accumulator(std::size_t columns) : sum_(columns), touched_(columns + 1) {}
+    explicit Accumulator(std::size_t columns, const EntryWords& words)
+        : words_(words), sum_(columns), touched_(columns + 1) {}
 
-    void add(const MatrixEntry& entry) {
-        double& sum = sum_[entry.column];
-        touched_[count_] = entry.column; // for good if it is a new one: no branch could be foreseen
+    void add(std::uint32_t word) {
+        const std::uint32_t column = words_.column(word);
+        double& sum = sum_[column];
+        touched_[count_] = column; // for good if it is a new one: no branch could be foreseen
         count_ += !(sum > 0);
-        sum += static_cast<double>(entry.value);
+        sum += static_cast<double>(words_.value(word));
     }
-    /// Adds all sums, times a factor, to the entries, and empties the accumulator.
-    void flush(double factor, std::vector<MatrixEntry>& entries) {
+    /// Adds all sums, times a factor, to the entries of a row, and empties the accumulator.
+    void flush(std::uint32_t row, double factor, std::vector<std::uint32_t>& entries) {
         for (std::size_t k = 0; k < count_; ++k) {
             const double sum = std::exchange(sum_[touched_[k]], 0.0);
-            entries.push_back({touched_[k], static_cast<float>(factor * sum)});
+            entries.push_back(words_.pack(row, touched_[k], static_cast<float>(factor * sum)));
         }
         count_ = 0;
     }
 
   private:
+    EntryWords words_;
     std::vector<double> sum_;
     std::vector<std::uint32_t> touched_;
     std::size_t count_ = 0;
@@ -36,8 +39,9 @@ class Accumulator {
 
 } // namespace
 
-SparseRows::SparseRows(std::vector<std::uint32_t> sizes)
-    : begin_(sizes.size()), size_(std::move(sizes)), stored_(chunks()) {
+SparseRows::SparseRows(std::vector<std::uint32_t> sizes, float largest)
+    : words_(sizes.size(), largest), begin_(sizes.size()), size_(std::move(sizes)),
+      stored_(chunks()) {
     for (std::size_t c = 0; c < stored_.size(); ++c)
         allocate(c);
     entries_ = std::accumulate(size_.begin(), size_.end(), std::size_t{0});
@@ -50,31 +54,32 @@ void SparseRows::allocate(std::size_t chunk) {
     std::size_t entries = 0;
     for (std::size_t i = begin; i < end; ++i)
         entries += size_[i];
-    stored_[chunk] = std::make_unique_for_overwrite<MatrixEntry[]>(entries);
-    MatrixEntry* next = stored_[chunk].get();
+    stored_[chunk] = std::make_unique_for_overwrite<std::uint32_t[]>(entries);
+    std::uint32_t* next = stored_[chunk].get();
     for (std::size_t i = begin; i < end; next += size_[i++])
         begin_[i] = next;
 }
 
 SparseRows::SparseRows(std::vector<SparseRows> parts, const Workers& workers)
-    : begin_(parts[0].rows()), size_(parts[0].rows()), stored_(chunks()) {
+    : words_(parts[0].words()), begin_(parts[0].rows()), size_(parts[0].rows()), stored_(chunks()) {
     struct Scratch {
         Accumulator sum;
-        std::vector<MatrixEntry> rows;
+        std::vector<std::uint32_t> rows;
     };
     workers.for_chunks_with(
         rows(), rows_per_chunk,
         [&] {
-            return Scratch{Accumulator(rows()), {}};
+            return Scratch{Accumulator(rows(), words_), {}};
         },
         [&](Scratch& scratch, std::size_t begin, std::size_t end) {
             scratch.rows.clear();
             for (std::size_t i = begin; i < end; ++i) {
                 for (const SparseRows& part : parts)
-                    for (const MatrixEntry& entry : part.row(i))
-                        scratch.sum.add(entry);
+                    for (const std::uint32_t word : part.row(i))
+                        scratch.sum.add(word);
                 const std::size_t before = scratch.rows.size();
-                scratch.sum.flush(1 / static_cast<double>(parts.size()), scratch.rows);
+                scratch.sum.flush(static_cast<std::uint32_t>(i),
+                                  1 / static_cast<double>(parts.size()), scratch.rows);
                 size_[i] = static_cast<std::uint32_t>(scratch.rows.size() - before);
             }
             const std::size_t chunk = begin / rows_per_chunk;

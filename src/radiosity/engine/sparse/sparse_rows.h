@@ -1,8 +1,8 @@
 #pragma once
-// Stores a sparse matrix by its rows.
+// Stores a symmetric sparse matrix by its rows.
 
 #include "parallel/workers.h"
-#include "radiosity/engine/sampling/sampling_kernels.h"
+#include "radiosity/engine/sparse/entry_words.h"
 
 #include <cstdint>
 #include <memory>
@@ -11,15 +11,12 @@
 
 namespace hemilux {
 
-/// The bytes per entry of a sparse matrix of form factors at its peak: column, value, and the
-/// counts that they come from, with room to grow.
-inline constexpr double bytes_per_factor = 32;
-
 class SparseRows {
   public:
     SparseRows() = default;
-    /// Allocates room for so many entries in each row; they are still to be written.
-    explicit SparseRows(std::vector<std::uint32_t> sizes);
+    /// Allocates room for so many entries in each row, of values up to `largest`; they are still to
+    /// be written.
+    SparseRows(std::vector<std::uint32_t> sizes, float largest);
     /// Makes the mean of a few of the same shape, each column once in a row; it is symmetric to the
     /// last bit if they are. It takes little more memory than they have, as it takes the place of
     /// their rows.
@@ -28,10 +25,12 @@ class SparseRows {
     [[nodiscard]] std::size_t rows() const { return begin_.size(); }
     [[nodiscard]] std::size_t entries() const { return entries_; }
     /// Returns a row. Its entries have any order, and a column may come twice.
-    [[nodiscard]] std::span<const MatrixEntry> row(std::size_t i) const {
+    [[nodiscard]] std::span<const std::uint32_t> row(std::size_t i) const {
         return {begin_[i], size_[i]};
     }
-    [[nodiscard]] MatrixEntry* to_write(std::size_t i) { return begin_[i]; }
+    [[nodiscard]] std::uint32_t* to_write(std::size_t i) { return begin_[i]; }
+    /// Returns how rows hold their entries.
+    [[nodiscard]] const EntryWords& words() const { return words_; }
 
     /// The number of rows that a thread takes at a time.
     static constexpr std::size_t rows_per_chunk = 64;
@@ -42,9 +41,10 @@ class SparseRows {
     }
     void allocate(std::size_t chunk);
 
-    std::vector<MatrixEntry*> begin_;
+    EntryWords words_;
+    std::vector<std::uint32_t*> begin_;
     std::vector<std::uint32_t> size_;
-    std::vector<std::unique_ptr<MatrixEntry[]>> stored_; ///< a chunk of rows each
+    std::vector<std::unique_ptr<std::uint32_t[]>> stored_; ///< a chunk of rows each
     std::size_t entries_ = 0;
 };
 

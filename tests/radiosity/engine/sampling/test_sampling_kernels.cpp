@@ -4,6 +4,7 @@
 #include "parallel/instruction_set.h"
 #include "radiosity/engine/sampling/sampling_kernels.h"
 #include "radiosity/engine/sampling/sobol.h"
+#include "radiosity/engine/sparse/entry_words.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/sobol.h"
@@ -191,24 +192,25 @@ TEST_CASE("every instruction set gives the same products with a row") {
     for (Lanes& lanes : x)
         for (int c = 0; c < 3; ++c)
             lanes.lane[c] = rng.uniform();
-    std::vector<MatrixEntry> row;
+    const EntryWords words(x.size(), 1);
+    std::vector<std::uint32_t> row;
     for (std::size_t count = 0; count < 20; ++count) {
         Vec3 plain(0.0);
-        for (const auto& [column, value] : row)
+        for (const std::uint32_t word : row)
             for (int c = 0; c < 3; ++c)
-                plain[c] += value * x[column].lane[c];
+                plain[c] += words.value(word) * x[words.column(word)].lane[c];
         Lanes expected{};
         sampling_kernels(InstructionSet::baseline)
-            .row_times(row.data(), count, x.data(), &expected);
+            .row_times(row.data(), count, words.format(), x.data(), &expected);
         for (const InstructionSet set : available_instruction_sets()) {
             Lanes sum{};
-            sampling_kernels(set).row_times(row.data(), count, x.data(), &sum);
+            sampling_kernels(set).row_times(row.data(), count, words.format(), x.data(), &sum);
             for (int c = 0; c < 3; ++c) {
                 CHECK(sum.lane[c] == expected.lane[c]);
                 CHECK(sum.lane[c] == Approx(plain[c]).epsilon(1e-14));
             }
         }
-        row.push_back({std::uint32_t(50 * rng.uniform()), float(rng.uniform())});
+        row.push_back(words.pack(0, std::uint32_t(50 * rng.uniform()), float(rng.uniform())));
     }
 }
 

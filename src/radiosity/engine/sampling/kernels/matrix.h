@@ -5,23 +5,26 @@
 
 namespace hemilux::HEMILUX_KERNELS {
 
-inline void add_product(const MatrixEntry& entry, const Lanes* x, double* sum) {
-    const double value = entry.value;
-    const double* lane = x[entry.column].lane;
+inline void add_product(std::uint32_t word, const EntryFormat& format, const Lanes* x,
+                        double* sum) {
+    const double value = __builtin_bit_cast(float, ((word & ~format.columns) >> 3) + format.least);
+    const double* lane = x[word & format.columns].lane;
     for (int c = 0; c < 4; ++c)
         sum[c] += value * lane[c];
 }
 
 /// Adds up in two sums that do not wait for each other.
-inline void row_times(const MatrixEntry* row, std::size_t count, const Lanes* x, Lanes* sum) {
+inline void row_times(const std::uint32_t* row, std::size_t count, const EntryFormat& entries,
+                      const Lanes* x, Lanes* sum) {
+    const EntryFormat format = entries;
     double even[4] = {}, odd[4] = {};
     std::size_t k = 0;
     for (; k + 2 <= count; k += 2) {
-        add_product(row[k], x, even);
-        add_product(row[k + 1], x, odd);
+        add_product(row[k], format, x, even);
+        add_product(row[k + 1], format, x, odd);
     }
     if (k < count)
-        add_product(row[k], x, even);
+        add_product(row[k], format, x, even);
     for (int c = 0; c < 4; ++c)
         sum->lane[c] = even[c] + odd[c];
 }
