@@ -34,8 +34,8 @@ constexpr double bytes_per_triangle = 150;
 /// The bytes of a stepwise method: solution, spread, one step.
 constexpr double bytes_per_solution = 241;
 /// The bytes that `stored-transport` may use for its rays where --memory says nothing: a scene of a
-/// million patches then stays within 2.5 GB.
-constexpr std::uint64_t default_transport = std::uint64_t{7} << 28;
+/// million patches then stays within 3 GB.
+constexpr std::uint64_t default_transport = std::uint64_t{3} << 29;
 /// The bytes of corners, planes and boxes of both sides of a facet, and of its edges.
 constexpr double bytes_of_analysis = 350;
 /// The bytes per pixel: the picture, that of emission and the list by which the exposure is chosen;

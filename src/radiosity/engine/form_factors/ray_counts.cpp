@@ -278,8 +278,11 @@ std::size_t RayCounts::own_words() const {
 }
 
 std::uint64_t RayCounts::bytes() const {
-    return rows_.size() * sizeof(Row) + blocks_.size() * sizeof(blocks_[0]) +
-           own_.ranks().sum(std::uint64_t{own_words()}) * sizeof(std::uint32_t);
+    return rows_.size() * sizeof(Row) + blocks_.size() * sizeof(blocks_[0]) + bytes_of_hits();
+}
+
+std::uint64_t RayCounts::bytes_of_hits() const {
+    return own_.ranks().sum(std::uint64_t{own_words()}) * sizeof(std::uint32_t);
 }
 
 } // namespace hemilux

@@ -64,6 +64,8 @@ class RayCounts {
     [[nodiscard]] std::size_t own_words() const;
     /// Returns the memory of all ranks, which all call this and the following functions.
     [[nodiscard]] std::uint64_t bytes() const;
+    /// Returns that of the words, which grows with the rays.
+    [[nodiscard]] std::uint64_t bytes_of_hits() const;
 
     /// Saves the state, which is whole on the first rank.
     void save(StateWriter& state) const;
