@@ -27,12 +27,12 @@ Scene placed(Scene scene, double unit, const Vec3& shift) {
 }
 
 /// As the program does it: with the fast tracer, and without what the scene does not need.
-Solution solved(const Scene& scene, const Method& method) {
+Solution solved(const Scene& scene, const Method& method, double rays = 24) {
     const Mesh mesh(scene);
     const WideBvh bvh(mesh.soup());
     const Needs needs = find_needs(mesh);
     SolveOptions options;
-    options.rays = 24;
+    options.rays = rays;
     options.threads = 1;
     Monitor monitor;
     const SolverInput input{mesh, bvh, options, monitor, needs};
@@ -63,6 +63,26 @@ double error_in_its_own_measure(const Solution& a, const Solution& b) {
         expected += squared(a.standard_error[i]) + squared(b.standard_error[i]);
     }
     return std::sqrt(off / expected);
+}
+
+/// A cube of 1 m with a lit floor, and in its middle a tiny box that is open at one side.
+Scene with_tiny_box(double size) {
+    Scene scene = test::cube_with_lit_floor(2, .5);
+    const Scene box = test::box_room(Vec3(.5 - size / 2), Vec3(.5 + size / 2), 1,
+                                     {{"tiny", Vec3(.7, .5, .3)}}, {0, 0, 0, 0, 0, 0});
+    const auto vertices = static_cast<std::uint32_t>(scene.vertices.size());
+    const auto material = static_cast<std::uint32_t>(scene.materials.size());
+    scene.vertices.insert(scene.vertices.end(), box.vertices.begin(), box.vertices.end());
+    scene.materials.push_back(box.materials[0]);
+    for (std::size_t side = 1; side < box.facets.size(); ++side) {
+        Facet facet = box.facets[side];
+        for (std::uint32_t& vertex : facet.vertex)
+            vertex += vertices;
+        facet.face = scene.faces++;
+        facet.material = material;
+        scene.facets.push_back(facet);
+    }
+    return scene;
 }
 
 constexpr double room_size = 4.7; ///< the diagonal
@@ -120,6 +140,17 @@ TEST_CASE("Far away and in other units the methods of other rays are right withi
             const Solution s = solved(placed(room, unit, shift), *method);
             CAPTURE(method->name, unit);
             CHECK(error_in_its_own_measure(s, here) < 1.5);
+        }
+    }
+}
+
+TEST_CASE("A thing has the same light however small it is beside the room") {
+    for (const Method* const method : methods()) {
+        const Solution small = solved(with_tiny_box(1e-3), *method, 1000);
+        for (const double size : {1e-6, 1e-10}) {
+            const Solution tiny = solved(with_tiny_box(size), *method, 1000);
+            CAPTURE(method->name, size);
+            CHECK(error_in_its_own_measure(tiny, small) < 1.5);
         }
     }
 }

@@ -70,7 +70,7 @@ struct PatchOnLine {
 /// How words of 32 bits hold the entries of a sparse matrix (entry_words.h).
 struct EntryFormat {
     std::uint32_t columns; ///< the bits of the column
-    std::uint32_t least;   ///< what the others, three places lower, lack to be a float's
+    std::uint32_t least;   ///< what the others, two places lower, lack to be a float's
 };
 
 /// Three channels side by side, and a 0.

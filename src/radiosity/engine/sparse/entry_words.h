@@ -13,8 +13,8 @@
 namespace hemilux {
 
 /// A word holds a column in its low bits and above it the highest bits of the value, a float from
-/// `largest` down to 2^-62 of it. Six of them are its exponent, so 6 are left of its fraction with
-/// a million columns, and 16 with a thousand.
+/// `largest` down to 2^-126 of it. Seven of them are its exponent, so 5 are left of its fraction
+/// with a million columns, and 15 with a thousand.
 ///
 /// Values are rounded up or down at random, so that their mean over many entries is right. They
 /// stand for a few rays each, and what chance makes of these is far more than what rounding does.
@@ -22,12 +22,12 @@ namespace hemilux {
 class EntryWords {
   public:
     EntryWords() = default;
-    /// Throws std::length_error for more than 2^26 columns.
+    /// Throws std::length_error for more than 2^25 columns.
     EntryWords(std::size_t columns, float largest) {
-        if (columns > std::size_t{1} << 26)
-            throw std::length_error("a matrix has more than 67 108 864 columns");
-        bits_ = std::max(static_cast<unsigned>(std::bit_width(columns > 0 ? columns - 1 : 0)), 3u);
-        format_.columns = (1u << bits_) - 1;
+        if (columns > std::size_t{1} << 25)
+            throw std::length_error("a matrix has more than 33 554 432 columns");
+        const int bits = std::max(int(std::bit_width(columns > 0 ? columns - 1 : 0)), 2);
+        format_.columns = (1u << bits) - 1;
         constexpr std::uint32_t one = 1u << fraction_bits; // of the exponent
         const std::uint32_t above = (std::bit_cast<std::uint32_t>(largest) | (one - 1)) + 1;
         format_.least = std::max(above, values + one) - values;
@@ -40,23 +40,22 @@ class EntryWords {
         const std::uint64_t pair =
             std::uint64_t{std::max(row, column)} << 32 | std::min(row, column);
         const auto random = static_cast<std::uint32_t>(mix_bits(pair));
-        const std::uint32_t rounded = std::min(size + (random & format_.columns >> 3), values - 1);
-        return (rounded << 3 & ~format_.columns) | column;
+        const std::uint32_t rounded = std::min(size + (random & format_.columns >> 2), values - 1);
+        return (rounded << 2 & ~format_.columns) | column;
     }
     [[nodiscard]] std::uint32_t column(std::uint32_t word) const { return word & format_.columns; }
     [[nodiscard]] float value(std::uint32_t word) const {
-        return std::bit_cast<float>(((word & ~format_.columns) >> 3) + format_.least);
+        return std::bit_cast<float>(((word & ~format_.columns) >> 2) + format_.least);
     }
     /// Returns the same for the kernels.
     [[nodiscard]] const EntryFormat& format() const { return format_; }
 
   private:
     static constexpr unsigned fraction_bits = 23;
-    /// The number of floats of six exponents.
-    static constexpr std::uint32_t values = 1u << 29;
+    /// The number of floats of 128 exponents.
+    static constexpr std::uint32_t values = 1u << 30;
 
-    unsigned bits_ = 3;
-    EntryFormat format_{7, 0};
+    EntryFormat format_{3, 0};
 };
 
 } // namespace hemilux

@@ -7,7 +7,7 @@ namespace hemilux::HEMILUX_KERNELS {
 
 inline void add_product(std::uint32_t word, const EntryFormat& format, const Lanes* x,
                         double* sum) {
-    const double value = __builtin_bit_cast(float, ((word & ~format.columns) >> 3) + format.least);
+    const double value = __builtin_bit_cast(float, ((word & ~format.columns) >> 2) + format.least);
     const double* lane = x[word & format.columns].lane;
     for (int c = 0; c < 4; ++c)
         sum[c] += value * lane[c];
