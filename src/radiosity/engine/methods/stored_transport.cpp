@@ -210,9 +210,7 @@ class StoredTransportSolver final : public Solver, public KeepsRays {
 
     /// Returns how many times as many rays may be stored.
     [[nodiscard]] double room_to_grow() const {
-        double stored = 0;
-        for (const RayCounts& batch : rays_.counts())
-            stored += static_cast<double>(batch.bytes_of_hits());
+        const auto stored = static_cast<double>(rays_.bytes_of_hits());
         return input_.options.memory == 0 || solution_.steps == 0
                    ? std::numeric_limits<double>::infinity()
                    : static_cast<double>(input_.options.memory) / (merging * stored);

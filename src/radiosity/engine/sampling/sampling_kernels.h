@@ -109,8 +109,8 @@ struct SamplingKernels {
                      const double* u, const double* v, double* x, double* y, double* z,
                      std::uint32_t* inside);
     /// Sets `sum` to the sum of value times x[column] over the `count` entries of a row.
-    void (*row_times)(const std::uint32_t* row, std::size_t count, const EntryFormat&,
-                      const Lanes* x, Lanes* sum);
+    void (*row_times)(const std::uint32_t* row, std::size_t count, EntryFormat, const Lanes* x,
+                      Lanes* sum);
 };
 
 /// Returns the kernels of an instruction set, which must be available.

@@ -63,6 +63,13 @@ std::uint64_t StoredRays::bytes_of_counts() const {
     return sum;
 }
 
+std::uint64_t StoredRays::bytes_of_hits() const {
+    std::uint64_t sum = 0;
+    for (const RayCounts& batch : counts_)
+        sum += batch.bytes_of_hits();
+    return sum;
+}
+
 void StoredRays::save(StateWriter& state) const {
     for (const RayCounts& batch : counts_)
         batch.save(state);

@@ -48,6 +48,8 @@ class StoredRays {
     [[nodiscard]] std::vector<bool> lit_patches(std::span<const Vec3> emission) const;
     /// Returns the bytes of the random rays, on all ranks, which all call this.
     [[nodiscard]] std::uint64_t bytes_of_counts() const;
+    /// Returns those that grow with the rays.
+    [[nodiscard]] std::uint64_t bytes_of_hits() const;
 
     void save(StateWriter& state) const;
     /// Loads a state; throws StateError for what save() cannot have written of this mesh.

@@ -5,8 +5,7 @@
 
 namespace hemilux::HEMILUX_KERNELS {
 
-inline void add_product(std::uint32_t word, const EntryFormat& format, const Lanes* x,
-                        double* sum) {
+inline void add_product(std::uint32_t word, EntryFormat format, const Lanes* x, double* sum) {
     const double value = __builtin_bit_cast(float, ((word & ~format.columns) >> 2) + format.least);
     const double* lane = x[word & format.columns].lane;
     for (int c = 0; c < 4; ++c)
@@ -14,9 +13,8 @@ inline void add_product(std::uint32_t word, const EntryFormat& format, const Lan
 }
 
 /// Adds up in two sums that do not wait for each other.
-inline void row_times(const std::uint32_t* row, std::size_t count, const EntryFormat& entries,
+inline void row_times(const std::uint32_t* row, std::size_t count, EntryFormat format,
                       const Lanes* x, Lanes* sum) {
-    const EntryFormat format = entries;
     double even[4] = {}, odd[4] = {};
     std::size_t k = 0;
     for (; k + 2 <= count; k += 2) {
