@@ -68,20 +68,10 @@ double error_in_its_own_measure(const Solution& a, const Solution& b) {
 /// A cube of 1 m with a lit floor, and in its middle a tiny box that is open at one side.
 Scene with_tiny_box(double size) {
     Scene scene = test::cube_with_lit_floor(2, .5);
-    const Scene box = test::box_room(Vec3(.5 - size / 2), Vec3(.5 + size / 2), 1,
-                                     {{"tiny", Vec3(.7, .5, .3)}}, {0, 0, 0, 0, 0, 0});
-    const auto vertices = static_cast<std::uint32_t>(scene.vertices.size());
-    const auto material = static_cast<std::uint32_t>(scene.materials.size());
-    scene.vertices.insert(scene.vertices.end(), box.vertices.begin(), box.vertices.end());
-    scene.materials.push_back(box.materials[0]);
-    for (std::size_t side = 1; side < box.facets.size(); ++side) {
-        Facet facet = box.facets[side];
-        for (std::uint32_t& vertex : facet.vertex)
-            vertex += vertices;
-        facet.face = scene.faces++;
-        facet.material = material;
-        scene.facets.push_back(facet);
-    }
+    Scene box = test::box_room(Vec3(.5 - size / 2), Vec3(.5 + size / 2), 1,
+                               {{"tiny", Vec3(.7, .5, .3)}}, {0, 0, 0, 0, 0, 0});
+    box.facets.erase(box.facets.begin());
+    test::add_scene(scene, box);
     return scene;
 }
 

@@ -64,6 +64,21 @@ void add_block(Scene& scene, const Vec3& low, const Vec3& high) {
         }
 }
 
+void add_scene(Scene& scene, const Scene& other) {
+    const auto vertices = static_cast<std::uint32_t>(scene.vertices.size());
+    const auto materials = static_cast<std::uint32_t>(scene.materials.size());
+    scene.vertices.insert(scene.vertices.end(), other.vertices.begin(), other.vertices.end());
+    scene.materials.insert(scene.materials.end(), other.materials.begin(), other.materials.end());
+    for (Facet facet : other.facets) {
+        for (std::uint32_t& vertex : facet.vertex)
+            vertex += vertices;
+        facet.face += scene.faces;
+        facet.material += materials;
+        scene.facets.push_back(facet);
+    }
+    scene.faces += other.faces;
+}
+
 Scene box_room(const Vec3& low, const Vec3& high, std::uint32_t n,
                const std::vector<Material>& materials, const std::array<std::uint32_t, 6>& side) {
     Scene scene = with_materials(materials);

@@ -17,6 +17,9 @@ inline void add_cube(Scene& scene, const Vec3& centre, double half) {
     add_block(scene, centre - half, centre + half);
 }
 
+/// Adds the faces of another scene, with its materials.
+void add_scene(Scene& scene, const Scene& other);
+
 /// The inside of the axis-aligned box from `low` to `high`, n x n quads a side. Sides in the order
 /// -y (floor), +y (ceiling), -x, +x, -z, +z; material[side].
 [[nodiscard]] Scene box_room(const Vec3& low, const Vec3& high, std::uint32_t n,

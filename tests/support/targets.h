@@ -52,15 +52,7 @@ namespace hemilux::test {
         faint{"faint", Vec3(.5), Vec3(.1)};
     Scene scene = box_room({0, 0, 0}, {1, 1, 1}, 4, {white, lamp, faint}, {1, 0, 0, 0, 0, 0});
     const Scene other = box_room({2, 0, 0}, {3, 1, 1}, 4, {white, lamp, faint}, {2, 0, 0, 0, 0, 0});
-    const auto before = static_cast<std::uint32_t>(scene.vertices.size());
-    scene.vertices.insert(scene.vertices.end(), other.vertices.begin(), other.vertices.end());
-    for (Facet facet : other.facets) {
-        for (std::uint32_t& vertex : facet.vertex)
-            vertex += before;
-        facet.face += scene.faces;
-        scene.facets.push_back(facet);
-    }
-    scene.faces += other.faces;
+    add_scene(scene, other);
     return scene;
 }
 
