@@ -266,12 +266,14 @@ std::vector<CornerNormals> smooth_normals(const SolveSettings& settings,
 
 /// Checks that the faces of an OBJ file are still those that were read.
 void check_unchanged(const LitObj& file, const Mesh& mesh) {
-    for (const Facet& facet : mesh.scene().facets) {
+    const Scene& scene = mesh.scene();
+    for (const Facet& facet : scene.facets) {
         if (facet.face >= file.faces().size())
             continue;
         const auto corners = file.corners_of(facet.face);
         for (const std::uint32_t vertex : facet.vertex)
-            if (std::ranges::find(corners, vertex, &LitObj::Corner::vertex) == corners.end())
+            if (std::ranges::find(corners, scene.number_read(vertex), &LitObj::Corner::vertex) ==
+                corners.end())
                 throw InputError(file.path(), "the file has changed since it was read");
     }
 }

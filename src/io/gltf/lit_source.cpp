@@ -36,9 +36,13 @@ std::string file_of(const ImageInfo& image, const std::string& scene, const std:
     }
 }
 
-/// Returns which corner of a facet is this vertex of the scene.
-std::size_t corner_of(const Facet& facet, std::uint32_t vertex) {
-    return static_cast<std::size_t>(std::ranges::find(facet.vertex, vertex) - facet.vertex.begin());
+/// Returns the points of an origin that the corners of a facet of it were read as.
+std::array<std::uint32_t, 4> points_of(const Scene& scene, const Facet& facet,
+                                       const PrimitiveOrigin& origin) {
+    std::array<std::uint32_t, 4> points{};
+    for (std::size_t k = 0; k < points.size(); ++k)
+        points[k] = scene.number_read(facet.vertex[k]) - origin.first_vertex;
+    return points;
 }
 
 } // namespace
@@ -142,11 +146,12 @@ std::vector<CornerNormals> normals_of_file(LitSource& source, const Mesh& mesh) 
             const std::uint32_t f = by_face[origin.first_face + t];
             if (f == none)
                 continue;
+            const auto points = points_of(scene, scene.facets[f], origin);
             std::array<Vec3, 4> of_corners{};
             Vec3 sum(0.0);
             bool all = true;
             for (std::size_t k = 0; k < 4; ++k) {
-                of_corners[k] = of_points[scene.facets[f].vertex[k] - origin.first_vertex];
+                of_corners[k] = of_points[points[k]];
                 all = all && of_corners[k] != Vec3(0.0);
                 sum += k < 3 ? of_corners[k] : Vec3(0.0);
             }
@@ -178,9 +183,10 @@ PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh, std::span<const 
                 found.add_without(facet.group);
                 continue;
             }
+            const auto points = points_of(scene, facet, origin);
             PlacedTriangle placed{f, sides[side_of[f]].back, false, 0, {}};
             for (std::size_t k = 0; k < 3; ++k)
-                placed.place[k] = triangles.texcoords[set][facet.vertex[k] - origin.first_vertex];
+                placed.place[k] = triangles.texcoords[set][points[k]];
             found.add(placed, facet.group);
         }
     }
@@ -212,6 +218,9 @@ std::vector<AtlasCoordinates> atlas_coordinates(LitSource& source, const Mesh& m
             auto& corners = coordinates.corners.emplace_back();
             const std::uint32_t f = by_face[origin.first_face + t];
             const std::uint32_t place = f == none ? none : placed_of[f];
+            std::array<std::uint32_t, 4> points{};
+            if (place != none)
+                points = points_of(scene, scene.facets[f], origin);
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t point = read.corners[t][k], vertex = read.vertex[point];
                 corners[k] = vertex;
@@ -228,8 +237,9 @@ std::vector<AtlasCoordinates> atlas_coordinates(LitSource& source, const Mesh& m
                         coordinates.further.push_back(vertex);
                     }
                     is_placed[vertex] = true;
-                    coordinates.places[found->second] = glm::vec2(
-                        placed.place[corner_of(scene.facets[f], origin.first_vertex + point)]);
+                    const auto corner = std::ranges::find(points, point) - points.begin();
+                    coordinates.places[found->second] =
+                        glm::vec2(placed.place[static_cast<std::size_t>(corner)]);
                 }
                 corners[k] = found->second;
             }

@@ -58,7 +58,8 @@ std::size_t any_corner_with(std::span<const LitObj::Corner> corners, std::uint32
 PlacesOfFile places_in_obj(const LitObj& file, const Mesh& mesh, std::span<const ChartSide> sides) {
     PlacesOfFile found;
     for (const ChartSide& side : sides) {
-        const Facet& facet = mesh.scene().facets[side.facet];
+        const Scene& scene = mesh.scene();
+        const Facet& facet = scene.facets[side.facet];
         const std::span<const LitObj::Corner> corners = file.corners_of(facet.face);
         for (const bool second : {false, true}) {
             if (second && facet.is_triangle())
@@ -67,7 +68,7 @@ PlacesOfFile places_in_obj(const LitObj& file, const Mesh& mesh, std::span<const
             bool is_there = true;
             const auto half = corners_of_half(second);
             for (std::size_t k = 0; is_there && k < 3; ++k) {
-                const auto corner = corner_with(corners, facet.vertex[half[k]]);
+                const auto corner = corner_with(corners, scene.number_read(facet.vertex[half[k]]));
                 is_there = corner && corners[*corner].place < file.places().size();
                 if (!is_there)
                     continue;
@@ -86,7 +87,8 @@ PlacesOfFile places_in_obj(const LitObj& file, const Mesh& mesh, std::span<const
 
 std::string text_with_atlas(const LitObj& file, const Mesh& mesh,
                             std::span<const PlacedTriangle> triangles) {
-    const std::vector<Facet>& facets = mesh.scene().facets;
+    const Scene& scene = mesh.scene();
+    const std::vector<Facet>& facets = scene.facets;
     NewPlaceNumbers numbers;
     std::vector<LitObj::NewPlaces> of_face(file.faces().size());
     std::vector<std::optional<std::uint32_t>> chart_of(file.faces().size());
@@ -102,7 +104,7 @@ std::string text_with_atlas(const LitObj& file, const Mesh& mesh,
         LitObj::Piece& piece = of_face[face].pieces.emplace_back();
         const auto half = corners_of_half(triangle.second_half);
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t vertex = facets[triangle.facet].vertex[half[k]];
+            const std::uint32_t vertex = scene.number_read(facets[triangle.facet].vertex[half[k]]);
             const std::uint32_t place = numbers.of(vertex, triangle, triangle.place[k]);
             piece.emplace_back(any_corner_with(corners, vertex), place);
             for (std::size_t c = 0; c < corners.size(); ++c)
@@ -123,7 +125,8 @@ std::string text_with_atlas(const LitObj& file, const Mesh& mesh,
 }
 
 std::vector<CornerNormals> normals_of_obj(const LitObj& file, const Mesh& mesh) {
-    const std::vector<Facet>& facets = mesh.scene().facets;
+    const Scene& scene = mesh.scene();
+    const std::vector<Facet>& facets = scene.facets;
     std::vector<CornerNormals> normals(facets.size());
     for (std::size_t f = 0; f < facets.size(); ++f) {
         if (facets[f].face >= file.faces().size()) // of an emitter that was added
@@ -133,7 +136,8 @@ std::vector<CornerNormals> normals_of_obj(const LitObj& file, const Mesh& mesh) 
         Vec3 sum(0.0);
         bool all = true;
         for (std::size_t k = 0; k < 4; ++k) {
-            const std::size_t corner = any_corner_with(corners, facets[f].vertex[k]);
+            const std::size_t corner =
+                any_corner_with(corners, scene.number_read(facets[f].vertex[k]));
             const bool is_there = corner < corners.size() &&
                                   corners[corner].normal < file.normals().size() &&
                                   file.normals()[corners[corner].normal] != glm::vec3(0.0f);

@@ -2,11 +2,15 @@
 #include "io/lightmaps/obj_places.h"
 #include "io/scene_files/lit_obj.h"
 #include "io/scene_files/obj.h"
+#include "radiosity/engine/needs/unused_vertices.h"
+#include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 
+#include <array>
 #include <numeric>
+#include <random>
 
 using namespace hemilux;
 using namespace hemilux::test;
@@ -21,7 +25,80 @@ std::string odd_file() {
     return before_faces + first_face + "vt 1 1\r\nl 1/2 2/-1\r\nf 1/2 2/-1 3";
 }
 
+/// Faces of three to six corners, some without area and some concave, among vertices that no face
+/// uses. The texture coordinates of a vertex at (x, y, z) are (x, y).
+std::string random_file(std::mt19937& engine) {
+    const auto number_in = [&](int low, int high) {
+        return std::uniform_int_distribution<int>(low, high)(engine);
+    };
+    std::string text, vertices, faces;
+    int vertex = 0;
+    for (int f = number_in(2, 12); f > 0; --f) {
+        for (int unused = number_in(0, 2); unused > 0; --unused, ++vertex)
+            vertices += "v .5 .5 .5\nvt .5 .5\n";
+        const int corners = number_in(3, 6);
+        const bool flat = number_in(0, 3) == 0;
+        std::string face = "f";
+        for (int k = 0; k < corners; ++k, ++vertex) {
+            const double turn = 6.2831853 * k / corners;
+            const double radius = number_in(200, 400) / 1000.0;
+            const std::string x = std::to_string(.5 + radius * std::cos(turn)),
+                              y = std::to_string(flat ? .5 : .5 + radius * std::sin(turn));
+            vertices += "v " + x + " " + y + " " + std::to_string(f) + "\nvt " + x + " " + y + "\n";
+            const std::string number = std::to_string(vertex + 1);
+            face += " " + number + "/" + number;
+        }
+        faces += face + "\n";
+    }
+    return vertices + faces;
+}
+
 } // namespace
+
+TEST_CASE("corners of an OBJ file keep their coordinates, whatever is dropped", "[obj]") {
+    std::mt19937 engine(1);
+    const TemporaryFolder folder;
+    std::size_t corners = 0, checked = 0;
+    for (int file = 0; file < 200; ++file) {
+        const std::string path = folder.write("s.obj", random_file(engine));
+        ReadResult read = read_obj(path);
+        std::erase_if(read.scene.facets, [&](const Facet&) { return engine() % 4 == 0; });
+        drop_unused_vertices(read.scene);
+        if (read.scene.facets.empty())
+            continue;
+        const Mesh mesh = layered_mesh(std::move(read.scene), {});
+        const Scene& scene = mesh.scene();
+        const LitObj lit(path);
+        std::vector<ChartSide> sides;
+        for (std::uint32_t f = 0; f < scene.facets.size(); ++f)
+            sides.push_back({f, false});
+        const PlacesOfFile found = places_in_obj(lit, mesh, sides);
+        CHECK(found.without.empty());
+        bool same = true;
+        for (const PlacedTriangle& triangle : found.triangles) {
+            const auto half = triangle.second_half ? std::array{0, 2, 3} : std::array{0, 1, 2};
+            for (std::size_t k = 0; k < 3; ++k, ++corners) {
+                const auto& vertex = scene.facets[triangle.facet].vertex;
+                const Vec2 place(scene.vertices[vertex[static_cast<std::size_t>(half[k])]]);
+                const Vec2 expected{place.x, 1 - place.y};
+                same = same && glm::distance(triangle.place[k], expected) < 1e-6;
+            }
+        }
+        CHECK(same);
+
+        // What is written with these places as an atlas has them at the same corners.
+        const LitObj again(folder.write("again.obj", text_with_atlas(lit, mesh, found.triangles)));
+        for (std::size_t f = 0; f < again.faces().size(); ++f)
+            for (const LitObj::Corner& corner : again.corners_of(f)) {
+                const glm::vec2 of_file = lit.places()[corner.vertex];
+                same = same && ++checked > 0 &&
+                       glm::distance(again.places()[corner.place], of_file) < 1e-6f;
+            }
+        CHECK(same);
+    }
+    CHECK(corners > 1000);
+    CHECK(checked > 1000);
+}
 
 TEST_CASE("faces of an OBJ file take new coordinates in their words alone", "[obj]") {
     const TemporaryFolder folder;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
+#include <vector>
 
 namespace hemilux {
 
@@ -14,13 +16,15 @@ void drop_unused_vertices(Scene& scene) {
             used[v] = true;
     if (std::ranges::all_of(used, std::identity{}))
         return;
-    std::vector<std::uint32_t> number(scene.vertices.size());
+    std::vector<std::uint32_t> number(scene.vertices.size()), read_as;
     std::uint32_t kept = 0;
-    for (std::size_t v = 0; v < used.size(); ++v)
+    for (std::uint32_t v = 0; v < used.size(); ++v)
         if (used[v]) {
             scene.vertices[kept] = scene.vertices[v];
+            read_as.push_back(scene.number_read(v));
             number[v] = kept++;
         }
+    scene.read_as = std::move(read_as);
     scene.vertices.resize(kept);
     scene.vertices.shrink_to_fit();
     for (Facet& facet : scene.facets)

@@ -6,7 +6,8 @@ namespace hemilux {
 
 struct Scene;
 
-/// Keeps the order of the vertices that remain.
+/// Keeps the order of the vertices that remain, and the numbers that they were read with
+/// (Scene::read_as).
 void drop_unused_vertices(Scene& scene);
 
 } // namespace hemilux
