@@ -1,6 +1,7 @@
 // A corner of a file has one name from reading to writing, whatever is dropped, turned or layered
 // in between: random glTF files in which texture coordinates and normals follow from the place.
 
+#include "io/files/error.h"
 #include "io/gltf/gltf.h"
 #include "io/gltf/gltf_text.h"
 #include "io/gltf/lit_source.h"
@@ -54,7 +55,7 @@ class PrimitiveText {
                 R"(,"TEXCOORD_0":)" + coordinate + R"(,"TEXCOORD_1":)" + coordinate + "}";
         if (number_in(engine, 0, 1) == 1) {
             std::vector<std::uint16_t> indices;
-            for (int k = 0; k < 3 * number_in(engine, 1, 8); ++k)
+            for (int k = 3 * number_in(engine, 1, 8); k > 0; --k)
                 indices.push_back(static_cast<std::uint16_t>(number_in(engine, 0, vertices - 1)));
             text_ += R"(,"indices":)" +
                      add(bytes_of(indices), "SCALAR", 5123, static_cast<int>(indices.size()));
@@ -89,7 +90,8 @@ std::string random_file(Engine& engine) {
             primitives += PrimitiveText(engine, contents, accessors).text() + (p > 1 ? "," : "");
         meshes += std::string(m > 0 ? "," : "") + R"({"primitives":[)" + primitives + "]}";
     }
-    for (int n = 0; n < number_in(engine, 1, 4); ++n)
+    const int shown = number_in(engine, 1, 4);
+    for (int n = 0; n < shown; ++n)
         nodes += std::string(n > 0 ? "," : "") + R"({"mesh":)" +
                  std::to_string(number_in(engine, 0, count - 1)) + R"(,"translation":[0,0,)" +
                  std::to_string(10 * n) + "]" +
@@ -106,6 +108,22 @@ void change(Scene& scene, Engine& engine) {
         if (number_in(engine, 0, 2) == 0)
             facet.vertex = {facet.vertex[0], facet.vertex[2], facet.vertex[1], facet.vertex[1]};
     drop_unused_vertices(scene);
+}
+
+/// Reads a random file and changes it; files in which nothing has an area are refused, and others
+/// are made.
+ReadResult changed_file(const TemporaryFolder& folder, Engine& engine) {
+    for (;;) {
+        const std::string path = folder.write("s.gltf", random_file(engine));
+        try {
+            ReadResult read = read_gltf(path);
+            change(read.scene, engine);
+            if (!read.scene.facets.empty())
+                return read;
+        } catch (const InputError& error) {
+            REQUIRE_THAT(error.what(), Catch::Contains("has an area"));
+        }
+    }
 }
 
 std::vector<ChartSide> fronts(const Mesh& mesh) {
@@ -128,13 +146,9 @@ TEST_CASE("a corner keeps its texture coordinates and its normal, whatever is dr
     const TemporaryFolder folder;
     std::size_t corners = 0;
     for (int file = 0; file < 300; ++file) {
-        const std::string path = folder.write("s.gltf", random_file(engine));
-        ReadResult read = read_gltf(path);
-        change(read.scene, engine);
-        if (read.scene.facets.empty())
-            continue;
+        ReadResult read = changed_file(folder, engine);
         const Mesh mesh = layered_mesh(std::move(read.scene), {});
-        gltf::LitSource source(path, {}, Outside::reported, read.origins);
+        gltf::LitSource source(folder.path("s.gltf"), {}, Outside::reported, read.origins);
         std::vector<std::size_t> all(read.origins.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
         const std::vector<ChartSide> sides = fronts(mesh);
@@ -164,13 +178,9 @@ TEST_CASE("coordinates of an atlas reach the corners that they were made for", "
     const TemporaryFolder folder;
     std::size_t corners = 0;
     for (int file = 0; file < 300; ++file) {
-        const std::string path = folder.write("s.gltf", random_file(engine));
-        ReadResult read = read_gltf(path);
-        change(read.scene, engine);
-        if (read.scene.facets.empty())
-            continue;
+        ReadResult read = changed_file(folder, engine);
         const Mesh mesh = layered_mesh(std::move(read.scene), {});
-        gltf::LitSource source(path, {}, Outside::reported, read.origins);
+        gltf::LitSource source(folder.path("s.gltf"), {}, Outside::reported, read.origins);
         std::vector<std::size_t> all(read.origins.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
         std::vector<PlacedTriangle> placed;
