@@ -58,3 +58,15 @@ TEST_CASE("the commands of README.md, the reading guide and the pages for users 
         }
     }
 }
+
+TEST_CASE("README names both commands within its first 30 lines") {
+    std::ifstream page(std::string(HEMILUX_SOURCE_DIR) + "/README.md");
+    std::string head;
+    int lines = 0;
+    for (std::string line; lines < 30 && std::getline(page, line); ++lines)
+        head += line + "\n";
+    for (const char* command : {"./demo.sh", "./test.sh"}) {
+        CAPTURE(command);
+        CHECK(head.find(command) != std::string::npos);
+    }
+}
