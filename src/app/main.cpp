@@ -3,6 +3,7 @@
 #include "app/command_line/config_words.h"
 #include "app/command_line/generated/generated_texts.h"
 #include "app/command_line/options.h"
+#include "app/command_line/solving_options.h"
 #include "app/commands/commands.h"
 #include "app/memory/memory.h"
 #include "app/memory/own_stack.h"
@@ -10,6 +11,7 @@
 #include "app/running/signals.h"
 #include "app/settings/dim_settings.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/extension.h"
 #include "app/settings/names.h"
 #include "app/settings/view_factor_settings.h"
 #include "app/terminal/log.h"
@@ -19,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <new>
 #include <optional>
 #include <string>
@@ -41,15 +44,28 @@ void keep_freed_memory() {
 #endif
 }
 
-/// Returns the arguments after the program's name; `help` and `help SUBCOMMAND` are --help in other
-/// words.
+/// Returns the arguments after the program's name; `help`, `help SUBCOMMAND` and `help SUBCOMMAND
+/// METHOD` are --help in other words, and no argument is -h.
 std::vector<std::string> arguments_of(int argc, const char* const* argv) {
     std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-    if (!words.empty() && words.front() == "help") {
+    if (words.empty())
+        return {"-h"};
+    if (words.front() == "help") {
         words.erase(words.begin());
-        words.emplace_back("--help");
+        const bool of_command = !words.empty() && !words.front().starts_with('-');
+        words.insert(of_command ? words.begin() + 1 : words.end(), "--help");
     }
     return words;
+}
+
+/// Returns whether a word that is no subcommand names a file, and so a model to light.
+bool names_model(const std::string& word) {
+    constexpr auto extensions =
+        std::to_array<std::string_view>({".obj", ".gltf", ".glb", ".stl", ".vs3"});
+    std::error_code ignored;
+    return !word.starts_with('-') &&
+           (std::ranges::find(extensions, extension_of(word)) != extensions.end() ||
+            std::filesystem::is_regular_file(word, ignored));
 }
 
 /// Returns what a result depends on. Where it goes, how many threads work and what is reported
@@ -87,9 +103,8 @@ std::string parsed(Arguments& program, const ConfigWords& config) {
 
 /// Runs the program. `advice` names the help of the subcommand, where one is asked for.
 int run_program(std::vector<std::string> words, const Ranks& ranks, std::string& advice) {
-    Arguments program("hemilux",
-                      "hemilux " HEMILUX_VERSION
-                      ": radiosity by hemisphere subdivision, and the methods around it");
+    Arguments program("hemilux", "hemilux " HEMILUX_VERSION
+                                 ": the diffuse light of a 3D model, with its error");
     SolveSettings solve_settings, bake_settings;
     CompareSettings compare_settings;
     solve_settings.ranks = bake_settings.ranks = compare_settings.ranks = &ranks;
@@ -98,8 +113,8 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     ViewFactorSettings viewfactor_settings, exchange_settings;
     DimSettings dim_settings;
     InfoSettings info_settings;
-    program.program().add_version("-V,--version", "hemilux " HEMILUX_VERSION,
-                                  "Display program version information and exit");
+    program.program().add_help("print this");
+    program.program().add_version("-V,--version", "hemilux " HEMILUX_VERSION, "print the version");
     const Command solve_command = add_solve_command(program, solve_settings);
     const Command bake_command = add_bake_command(program, bake_settings);
     const Command compare_command = add_compare_command(program, compare_settings);
@@ -110,15 +125,23 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     const Command dim_command = add_dim_command(program, dim_settings);
     add_info_command(program, info_settings);
     program.program().add_answer(
-        "--print", "man|bash|zsh|fish", "Print the manual page, or the completions of a shell",
+        "--print", "man|bash|zsh|fish", "print the manual page, or the completions of a shell",
         [&program](const std::string& name) { return printed(program, name); });
-    program.program().end_help_with("hemilux SUBCOMMAND --help says more.");
-    if (!words.empty()) {
-        if (std::ranges::count(program.commands(), words.front()) > 0)
-            advice = "\nhemilux " + words.front() + " --help says what can be asked for.";
-        else if (!words.front().starts_with('-'))
-            words.resize(1); // which is refused, also where help is asked for it
+    program.program().end_help_with(
+        "hemilux MODEL [OPTIONS]       lights a model and writes a picture of it; it takes the "
+        "options of solve\n\nhemilux SUBCOMMAND -h says more, hemilux SUBCOMMAND --help all.");
+    const bool lights_model =
+        std::ranges::count(program.commands(), words.front()) == 0 && names_model(words.front());
+    if (lights_model)
+        words.insert(words.begin(), "solve");
+    if (const auto text = method_help(words)) {
+        print(*text);
+        return exit_done;
     }
+    if (std::ranges::count(program.commands(), words.front()) > 0)
+        advice = "\nhemilux " + words.front() + " --help says what can be asked for.";
+    else if (!words.front().starts_with('-'))
+        words.resize(1); // which is refused, also where help is asked for it
     const ConfigWords config(std::move(words), program.described());
     if (const std::string text = parsed(program, config); !text.empty()) {
         print(text);
@@ -133,7 +156,7 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     if (solve_command.parsed()) {
         solve_settings.from = provenance(solve_command, solve_settings.options.seed);
         solve_settings.given = solve_command.options_given();
-        return solve(solve_settings);
+        return lights_model ? light_model(solve_settings) : solve(solve_settings);
     }
     if (bake_command.parsed()) {
         bake_settings.from = provenance(bake_command, bake_settings.options.seed);

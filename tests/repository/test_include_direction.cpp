@@ -58,6 +58,7 @@ const std::vector<std::string> rooms{
     "radiosity/light/lamps",
     "radiosity/light/layers",
     "radiosity/light/sides",
+    "radiosity/light/rooms",
     "radiosity/light/cached_light",
     "radiosity/light/final_gather",
     "radiosity/light/light_error",

@@ -1,13 +1,14 @@
 #include "app/command_line/arguments.h"
 
+#include "app/command_line/generated/generated_texts.h"
 #include "app/command_line/unknown_option.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
+#include "app/settings/shell_word.h"
 #include "io/files/text_words.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <memory>
 #include <sstream>
 #include <utility>
@@ -15,8 +16,6 @@
 namespace hemilux {
 
 namespace {
-
-constexpr const char* first_group = "Often used";
 
 std::vector<std::string> names_of(const std::vector<const CLI::App*>& subcommands) {
     std::vector<std::string> names;
@@ -114,14 +113,61 @@ CommandText described(const CLI::App& command) {
                 of_option.excludes.push_back(name);
         text.options.push_back(std::move(of_option));
     }
-    std::stable_partition(text.options.begin(), text.options.end(),
-                          [](const OptionText& option) { return option.group == first_group; });
+    std::stable_partition(text.options.begin(), text.options.end(), [](const OptionText& option) {
+        return option.group == often_used_group;
+    });
     return text;
 }
 
-/// Breaks the descriptions of options and methods, which stand in a column of their own, before
-/// column 80. All other lines stay, as commands are copied from them.
-std::string wrapped(const std::string& help) {
+/// Returns the program, then its subcommands.
+std::vector<CommandText> all_described(const CLI::App& program) {
+    std::vector<CommandText> texts{described(program)};
+    for (const CLI::App* const subcommand : all_subcommands(program))
+        texts.push_back(described(*subcommand));
+    return texts;
+}
+
+/// A formatter of help whose lines begin with what is typed: options that contradict each other are
+/// named in the descriptions.
+class HelpFormatter : public CLI::Formatter {
+  public:
+    /// `folded` is a heading under which options are named only; `more` says where the rest is.
+    explicit HelpFormatter(std::string folded = {}, std::string more = {})
+        : folded_(std::move(folded)), more_(std::move(more)) {}
+
+    std::string make_option_opts(const CLI::Option* option) const override {
+        const std::string text = CLI::Formatter::make_option_opts(option);
+        return text.substr(0, text.find(" Excludes:"));
+    }
+    std::string make_group(std::string group, bool is_positional,
+                           std::vector<const CLI::Option*> options) const override {
+        if (group != folded_)
+            return CLI::Formatter::make_group(group, is_positional, options);
+        std::string line = "\n" + group + " (" + more_ + "):\n ", text;
+        constexpr std::size_t width = 80;
+        for (const CLI::Option* const option : options) {
+            const std::string name = " " + option->get_name();
+            if (line.size() - line.rfind('\n') + name.size() > width) {
+                text += line + "\n";
+                line = " ";
+            }
+            line += name;
+        }
+        return text + line + "\n";
+    }
+
+  private:
+    std::string folded_, more_;
+};
+
+void describe_exclusion(CLI::Option& of, const CLI::Option& other) {
+    if (!other.get_group().empty()) // else it is hidden
+        of.description(of.get_description() + " (not with " + other.get_name() + ")");
+}
+
+} // namespace
+
+std::string help_in_columns(const std::string& help) {
     constexpr std::size_t width = 80, min_column = 20, default_column = 30;
     std::istringstream lines(help);
     std::string text;
@@ -140,40 +186,11 @@ std::string wrapped(const std::string& help) {
             text += line.substr(0, end) + "\n";
             line = std::string(column, ' ') + line.substr(end + 1);
         }
-        text += line + "\n";
+        if (!line.empty() || !text.ends_with("\n\n"))
+            text += line + "\n";
     }
     return text;
 }
-
-/// A formatter of help whose lines begin with what is typed: options that contradict each other are
-/// named in the descriptions.
-class HelpFormatter : public CLI::Formatter {
-  public:
-    std::string make_option_opts(const CLI::Option* option) const override {
-        const std::string text = CLI::Formatter::make_option_opts(option);
-        return text.substr(0, text.find(" Excludes:"));
-    }
-};
-
-void describe_exclusion(CLI::Option& of, const CLI::Option& other) {
-    of.description(of.get_description() + " (not with " + other.get_name() + ")");
-}
-
-/// Returns a word as a shell takes it.
-std::string quoted(const std::string& word) {
-    const auto is_plain = [](unsigned char c) {
-        return std::isalnum(c) != 0 ||
-               std::string_view("_./:=,+-%@").find(static_cast<char>(c)) != std::string_view::npos;
-    };
-    if (!word.empty() && std::ranges::all_of(word, is_plain))
-        return word;
-    std::string text = "'";
-    for (const char c : word)
-        text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
-
-} // namespace
 
 Option Option::required() const {
     option_->required();
@@ -191,6 +208,11 @@ Option Option::repeatable() const {
     option_->expected(1, CLI::detail::expected_max_vector_size)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(false);
+    return *this;
+}
+
+Option Option::hidden() const {
+    option_->group("");
     return *this;
 }
 
@@ -254,14 +276,28 @@ Option Command::add_answer(const std::string& name, const std::string& type,
     });
 }
 
-Option Command::add_help(const std::string& name, const std::string& help) const {
+void Command::add_help(const std::string& help) const {
     app_->set_help_flag(); // takes away the one that stands first
-    return added(app_->set_help_flag(name, help));
+    (void)added(app_->add_flag_callback(
+        "-h",
+        [app = app_] {
+            const std::string text =
+                app->get_parent() ? short_help(described(*app)) : short_help(all_described(*app));
+            throw CLI::CallForVersion(help_in_columns(text), 0);
+        },
+        "print a short help"));
+    (void)added(app_->set_help_flag("--help", help));
+}
+
+void Command::in_family(const std::string& heading) const { app_->group(heading); }
+
+void Command::fold_in_help(const std::string& heading, const std::string& more) const {
+    app_->formatter(std::make_shared<HelpFormatter>(heading, more));
 }
 
 void Command::call_often_used(std::span<const char* const> options) const {
     for (const char* const option : options)
-        app_->get_option(option)->group(first_group);
+        app_->get_option(option)->group(often_used_group);
 }
 
 void Command::end_help_with(const std::string& text) const { app_->footer(text); }
@@ -296,7 +332,7 @@ std::string Command::text_given(std::span<const std::string_view> except) const 
         if (values.empty())
             text += word;
         for (const std::string& value : values)
-            text += word + " " + quoted(value);
+            text += word + " " + shell_word(value);
     }
     return text;
 }
@@ -319,12 +355,7 @@ Command Arguments::add_command(const std::string& name, const std::string& descr
 
 std::vector<std::string> Arguments::commands() const { return names_of(all_subcommands(*app_)); }
 
-std::vector<CommandText> Arguments::described() const {
-    std::vector<CommandText> texts{hemilux::described(*app_)};
-    for (const CLI::App* const subcommand : all_subcommands(*app_))
-        texts.push_back(hemilux::described(*subcommand));
-    return texts;
-}
+std::vector<CommandText> Arguments::described() const { return all_described(*app_); }
 
 std::string Arguments::parse(std::vector<std::string> words) {
     try {
@@ -336,7 +367,8 @@ std::string Arguments::parse(std::vector<std::string> words) {
             throw UsageError(unknown_argument(*app_, refused(*app_, error)));
         std::ostringstream text; // --help and --version
         app_->exit(error, text, text);
-        return dynamic_cast<const CLI::CallForHelp*>(&error) ? wrapped(text.str()) : text.str();
+        return dynamic_cast<const CLI::CallForHelp*>(&error) ? help_in_columns(text.str())
+                                                             : text.str();
     }
 }
 

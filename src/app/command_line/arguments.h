@@ -28,6 +28,8 @@ class Option {
     Option excludes(Option other) const;
     /// Declares that it may be given several times, with one value each time.
     Option repeatable() const;
+    /// Leaves the option out of all help; it works as before. Called before excludes().
+    Option hidden() const;
     /// Declares that a value may be several, with this letter between them.
     Option separated_by(char letter) const;
 
@@ -38,7 +40,8 @@ class Option {
 /// The declaration of an option.
 struct OptionText {
     std::vector<std::string> names; ///< names with their dashes; one without dashes: a positional
-    std::string type, help, group;  ///< type: empty where it takes no value
+    std::string type, help;         ///< type: empty where it takes no value
+    std::string group;              ///< heading of --help; empty: help leaves it out
     bool repeatable = false;
     std::vector<std::string> excludes = {}; ///< names of options that it contradicts
 };
@@ -79,8 +82,13 @@ class Command {
     /// Adds an option of one value whose answer is a text, as that of --help is.
     Option add_answer(const std::string& name, const std::string& type, const std::string& help,
                       std::function<std::string(const std::string&)> answer) const;
-    /// Adds --help, which stands where this is called, not first.
-    Option add_help(const std::string& name, const std::string& help) const;
+    /// Adds --help, which stands where this is called, not first, and -h, the short help.
+    void add_help(const std::string& help) const;
+    /// Puts the subcommand under a heading of its own among the others.
+    void in_family(const std::string& heading) const;
+    /// Lets --help name the options under this heading without saying what they do; `more` says
+    /// where that is said.
+    void fold_in_help(const std::string& heading, const std::string& more) const;
     /// Puts these options under a heading of their own, which is the first one of --help where one
     /// of them was added first.
     void call_often_used(std::span<const char* const> options) const;
@@ -103,6 +111,10 @@ class Command {
     CLI::App* app_;
     std::string_view heading_; ///< empty: that of the parser
 };
+
+/// Breaks the descriptions of options and methods, which stand in a column of their own, before
+/// column 80. All other lines stay, as commands are copied from them; of empty ones, one stays.
+[[nodiscard]] std::string help_in_columns(const std::string& help);
 
 class Arguments {
   public:

@@ -7,6 +7,7 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -166,6 +167,8 @@ Command add_bake_command(Arguments& program, SolveSettings& settings) {
         if (!settings.lightmap)
             settings.lightmap = FileBakeSettings::default_size;
     });
+    command.call_often_used(std::to_array({"--output", "--error", "--time", "--lightmap", "--bind",
+                                           "--sky", "--sun", "--light", "--threads"}));
     command.end_help_with(std::string(bake_examples) + exit_codes);
     return command;
 }

@@ -10,6 +10,7 @@
 #include "io/files/text_words.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -194,6 +195,10 @@ Command add_compare_command(Arguments& program, CompareSettings& settings) {
                       "methods after 1, 2, 4 and more steps side by side, to turn around");
     add_view_options(outputs, settings.view);
     add_verbosity_options(command, settings.verbosity);
+    command.call_often_used(
+        std::to_array({"--output", "--methods", "--budget-rays", "--budget-time", "--budget-error",
+                       "--runs", "--report", "--threads"}));
+    fold_own_options(command);
     command.end_help_with(methods_text() + compare_examples + exit_codes);
     return command;
 }

@@ -5,6 +5,7 @@
 #include "radiosity/engine/shooting/additions.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace hemilux {
@@ -85,6 +86,8 @@ Command add_density_command(Arguments& program, DensitySettings& settings) {
                      "draw the subdivision in a plane across the patch, as the paper's figure 1");
     add_camera_options(outputs, settings.view);
     add_verbosity_options(command, settings.verbosity);
+    command.call_often_used(
+        std::to_array({"--output", "--method", "--patch", "--depth", "--threshold", "--plane"}));
     command.end_help_with(density_examples);
     return command;
 }

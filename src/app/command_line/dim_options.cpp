@@ -7,6 +7,7 @@
 #include "app/settings/dim_settings.h"
 #include "app/settings/exit_code.h"
 
+#include <array>
 #include <string>
 
 namespace hemilux {
@@ -51,6 +52,7 @@ Command add_dim_command(Arguments& program, DimSettings& settings) {
         .repeatable();
     add_exposure_options(outputs, settings.view);
     add_verbosity_options(command, settings.verbosity);
+    command.call_often_used(std::to_array({"--output", "--power", "--wish"}));
     command.end_help_with(std::string(dim_examples) + exit_codes);
     return command;
 }

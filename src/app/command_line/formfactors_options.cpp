@@ -2,6 +2,7 @@
 #include "app/command_line/option_kinds.h"
 #include "app/command_line/options.h"
 
+#include <array>
 #include <bit>
 
 namespace hemilux {
@@ -43,6 +44,8 @@ Command add_formfactors_command(Arguments& program, FormFactorSettings& settings
         .repeatable()
         .required();
     add_verbosity_options(command, settings.verbosity);
+    command.in_family(factor_family);
+    command.call_often_used(std::to_array({"--output", "--rays", "--factors", "--threads"}));
     command.end_help_with(formfactors_examples);
     return command;
 }

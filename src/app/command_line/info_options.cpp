@@ -4,6 +4,7 @@
 #include "app/command_line/options.h"
 #include "app/command_line/solving_options.h"
 
+#include <array>
 #include <string>
 
 namespace hemilux {
@@ -26,6 +27,7 @@ Command add_info_command(Arguments& program, InfoSettings& settings) {
     command.under(output_group)
         .add_flag("--json", settings.json, "one JSON object instead of lines of text");
     add_verbosity_options(command, settings.verbosity);
+    command.call_often_used(std::to_array({"--json", "--sides", "--max-edge"}));
     command.end_help_with(std::string(info_examples) + exit_codes);
     return command;
 }

@@ -42,36 +42,36 @@ void add_sides_options(Command command, SceneSettings& scene) {
     const Option sides = add_choice<Sides>(
         command, "--sides",
         {{Sides::automatic, "auto"}, {Sides::front, "front"}, {Sides::both, "both"}},
-        "which sides of faces emit and reflect. auto: the front, faces that look away from the "
-        "light being turned; front: the front as in the file; both [auto]",
+        "which sides of faces emit and reflect: the front, once those that look away from the "
+        "light are turned; the front as in the file; both [auto]",
         [&scene](Sides chosen) { choose_sides(scene, chosen); });
     command
         .add_action(
             "--two-sided", [&scene] { choose_sides(scene, Sides::both); },
             "the same as --sides both")
+        .hidden()
         .excludes(sides);
 }
 
 void add_light_options(Command command, SceneSettings& scene) {
     add_parsed(
         command, "--light", "TEXT",
-        "add a lamp, as 'disc at 0,2.4,0 towards 0,-1,0 radius 0.2 watts 60', 'rectangle at ... "
-        "towards ... size 1x0.5 emission 20', 'point at ... watts 60', 'spot at ... towards ... "
-        "inner 20 outer 30 intensity 100' or 'ies lamp.ies at ... towards ...'; repeatable",
+        "add a lamp: 'disc at 0,2.4,0 towards 0,-1,0 radius 0.2 watts 60', 'rectangle at P towards "
+        "D size 1x0.5 emission 20', 'point at P watts 60', 'spot at P towards D inner 20 outer 30 "
+        "intensity 9', 'ies FILE at P towards D'; repeatable",
         light_form, [](const std::string& text) { return parse_light(text); },
         [&scene](const LightSettings& light) { scene.lights.push_back(light); })
         .repeatable();
     add_parsed(
         command, "--sun", "X,Y,Z,W",
-        "add a sun: the direction in which its light goes, and what arrives on a surface that "
-        "faces it, W/m2 or R,G,B; repeatable",
+        "add a sun: where its light goes, and its light on a surface that faces it, W/m2 or R,G,B; "
+        "repeatable",
         "X,Y,Z,W or X,Y,Z,R,G,B with a direction that is not 0,0,0",
         [](const std::string& text) { return parse_sun(text); },
         [&scene](const SunSettings& sun) { scene.suns.push_back(sun); })
         .repeatable();
     add_parsed(
-        command, "--sky", "R,G,B",
-        "add a sky that is alike all around and lights what sees nothing else by so much, W/m2",
+        command, "--sky", "R,G,B", "add a sky that is alike all around, W/m2",
         "R,G,B or one number, " + emission_range.text(),
         [](const std::string& text) { return parse_colour(text, emission_range); },
         [&scene](const Vec3& sky) { scene.sky = sky; });
@@ -90,13 +90,11 @@ Option add_scene_options(Command command, SceneSettings& scene) {
         add_number(command, "--max-edge", "LENGTH", scene.mesh.max_edge, positive,
                    "divide faces until no edge is longer [not divided]");
     add_sides_options(command, scene);
-    add_choice(
-        command, "--glass", scene.glass, {{Glass::open, "open"}, {Glass::solid, "solid"}},
-        "what glass does: open: lets its share of light through and absorbs the rest; solid: "
-        "stays opaque, with a warning [solid]");
+    add_choice(command, "--glass", scene.glass, {{Glass::open, "open"}, {Glass::solid, "solid"}},
+               "glass lets its share of light through and absorbs the rest, or is opaque [solid]");
     command.add_action(
         "--no-textures", [&scene] { scene.textures = false; },
-        "materials have the colours of the file without their textures");
+        "leave out the pictures on surfaces");
     command.add_action(
         "--no-outside-files", [&scene] { scene.outside = Outside::refused; },
         "refuse a scene that names files outside its folder");
@@ -128,7 +126,7 @@ void add_geometry_options(Command command, SceneSettings& scene) {
 
 void add_memory_option(Command command, SceneSettings& scene) {
     add_parsed(
-        command, "--memory", "BYTES", "stop before a scene needs more; k, M, G or T may follow",
+        command, "--memory", "BYTES", "stop before a scene needs more, as 800M or 2G",
         "a number of bytes such as 800M or 1.5G",
         [](const std::string& text) { return parse_bytes(text); },
         [&scene](std::uint64_t bytes) { scene.memory = bytes; });
@@ -178,13 +176,16 @@ void add_own_options(Command command, std::span<const Method* const> methods,
                     names.push_back(other->name);
             const std::string help =
                 methods.size() > 1 ? joined(names, ", ") + ": " + own.help : own.help;
-            added.emplace(own.name, add_own_option(command, own, help, options));
+            const Option option = add_own_option(command, own, help, options);
+            added.emplace(own.name, is_alias(own) ? option.hidden() : option);
             if (!own.excludes.empty())
                 excluding.emplace_back(own.name, own.excludes);
         }
     for (const auto& [one, other] : excluding)
         static_cast<void>(added.at(one).excludes(added.at(other)));
 }
+
+bool is_alias(const MethodOption& option) { return option.name == "--exact"; }
 
 void add_random_options(Command command, SolveOptions& options) {
     add_whole<std::uint64_t>(command, "--seed", options.seed, 0,
@@ -207,23 +208,20 @@ void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
 void add_camera_options(Command command, ViewSettings& view) {
     add_parsed(
         command, "--camera", "EX,EY,EZ,TX,TY,TZ[,FOV[,UX,UY,UZ]]",
-        "eye, target, vertical angle of view in degrees and the direction that is upwards in "
-        "the picture; auto: as the program chooses it [that of the scene, else auto]",
+        "eye, target, vertical angle of view in degrees, direction upwards; auto: the program "
+        "chooses it [that of the scene, else auto]",
         "auto or ex,ey,ez,tx,ty,tz[,fov[,ux,uy,uz]] with two different points, an angle "
         "between 0 and 180 degrees and a direction that is not 0,0,0",
         camera_from, [&view](const std::optional<Camera>& value) {
             view.camera = value;
             view.uses_camera_of_scene = false;
         });
-    command.add_value(
-        "--up", "y|z",
-        "axis that is upwards where the program chooses the camera, and in .glb files "
-        "[guessed; y of .gltf and .glb]",
-        [&view](const std::string& axis) {
-            if (axis != "y" && axis != "z")
-                throw UsageError("--up: expected y or z, not '" + axis + "'");
-            view.up = axis == "y" ? 1 : 2;
-        });
+    command.add_value("--up", "y|z", "axis that is upwards [guessed; y of .gltf and .glb]",
+                      [&view](const std::string& axis) {
+                          if (axis != "y" && axis != "z")
+                              throw UsageError("--up: expected y or z, not '" + axis + "'");
+                          view.up = axis == "y" ? 1 : 2;
+                      });
     add_parsed(
         command, "--size", "WxH", "of pictures, in pixels [800x600]",
         "a width and a height from 1 to 16384, such as 800x600",
@@ -243,8 +241,7 @@ void add_exposure_options(Command command, ViewSettings& view) {
             view.stops = value.stops;
         });
     add_choice(command, "--tone", view.tone, {{Tone::neutral, "neutral"}, {Tone::srgb, "srgb"}},
-               "how .png pictures show light above 0.8 of the screen's: neutral: compressed, with "
-               "its hue; srgb: cut at 1 in each channel [neutral]");
+               "bright light in .png pictures is compressed, with its hue; or cut at 1 [neutral]");
 }
 
 void add_view_options(Command command, ViewSettings& view) {
@@ -267,7 +264,7 @@ void add_verbosity_options(Command command, Verbosity& verbosity) {
             "a line per step, and details")
         .excludes(quiet);
     command.add_version("--version", "hemilux " HEMILUX_VERSION, "print the version");
-    command.add_help("-h,--help", "print this");
+    command.add_help("print this");
 }
 
 } // namespace hemilux

@@ -15,6 +15,8 @@ inline constexpr const char* scene_group = "Scene";
 inline constexpr const char* method_group = "Method";
 inline constexpr const char* output_group = "Outputs";
 inline constexpr const char* own_group = "Of one method"; ///< a few count too
+/// The heading of subcommands that find factors between surfaces.
+inline constexpr const char* factor_family = "Factors between surfaces";
 
 /// Adds SCENE and, under a heading of their own, the options that change it; returns --max-edge.
 Option add_scene_options(Command command, SceneSettings& scene);
@@ -28,6 +30,8 @@ void add_division_options(Command command, SolveOptions& options);
 /// Adds what these methods declare (Method::options), each name once.
 void add_own_options(Command command, std::span<const Method* const> methods,
                      SolveOptions& options);
+/// Returns whether an option says what another says too, in fewer letters; no help has it.
+[[nodiscard]] bool is_alias(const MethodOption& option);
 /// Adds --seed and --threads.
 void add_random_options(Command command, SolveOptions& options);
 /// Adds --checkpoint, --every and --resume.
@@ -40,7 +44,7 @@ void add_exposure_options(Command command, ViewSettings& view);
 void add_view_options(Command command, ViewSettings& view);
 /// Adds --report, a page with these contents.
 void add_report_option(Command command, std::string& report, const char* contents);
-/// Adds -q, -v, --version and --help under a heading of their own.
+/// Adds -q, -v, --version, -h and --help under a heading of their own.
 void add_verbosity_options(Command command, Verbosity& verbosity);
 
 } // namespace hemilux

@@ -35,9 +35,9 @@ void add_layers_option(Command command, std::optional<LayersBy>& layers) {
     add_choice<LayersBy>(
         command, "--layers",
         {{LayersBy::lamp, "lamp"}, {LayersBy::group, "group"}, {LayersBy::material, "material"}},
-        "also the light of each lamp, of the sun and of the sky by itself, by faces that touch, by "
-        "group or by material: in columns of .csv and of --points-output, in layers of .exr "
-        "pictures and lightmaps, in --report; `hemilux dim` gives them other powers",
+        "also the light of each lamp, the sun and the sky by itself, in tables, .exr pictures and "
+        "--report; lamps are faces that touch, groups or materials; `hemilux dim` gives them other "
+        "powers",
         [&layers](LayersBy by) { layers = by; });
 }
 
@@ -46,9 +46,7 @@ namespace {
 void add_plain_option(Command command, bool& plain) {
     command.add_flag(
         "--plain", plain,
-        "by the page of src/radiosity/paper/pages that shows the method: slower, one thread; "
-        "these have one: " +
-            methods_with_a_page());
+        "by the page of src/radiosity/paper/pages that shows the method: slower, one thread");
 }
 
 /// Returns the method named, or throws UsageError with the nearest name.
@@ -68,7 +66,7 @@ void add_method_option(Command command, const Method*& method) {
         if (other->implied_by)
             taken += "; " + std::string(other->name) + " where " +
                      joined(other->implied_by(), ", ", " or ") + " are given";
-    command.add_value("--method", "METHOD", "how to solve, see below [" + taken + "]",
+    command.add_value("--method", "METHOD", "how to solve [" + taken + "]",
                       [&method](const std::string& name) { method = method_by_name(name); });
     command.after_parsing([command, &method] {
         const auto given = [&command](std::string_view name) {
@@ -83,10 +81,8 @@ void add_method_option(Command command, const Method*& method) {
 }
 
 void add_error_accuracy_option(Command command, double& accuracy) {
-    add_error(
-        command, "--error-accuracy", accuracy,
-        "also find the error of gathered light to this share of itself, e.g. 10% [it is enough "
-        "that the error is surely below the one asked for]");
+    add_error(command, "--error-accuracy", accuracy,
+              "also find the error of gathered light to this share of itself, e.g. 10%");
 }
 
 void add_whole_error_option(Command command, SolveSettings& settings) {
@@ -110,22 +106,19 @@ void add_output_options(Command command, SolveSettings& settings) {
     command.add_text("--steps-log", "FILE", settings.steps_log, "a CSV row per step");
     command.add_flag("--every-step", settings.every_step,
                      "also write the pictures after every step, as NAME-0001.png and so on");
-    add_choice(
-        command, "--bake", settings.bake,
-        {{Bake::radiosity, name_of(Bake::radiosity)},
-         {Bake::irradiance, name_of(Bake::irradiance)},
-         {Bake::indirect, name_of(Bake::indirect)}},
-        "what .glb and .ply files hold: radiosity: what surfaces send; irradiance: what "
-        "arrives, for viewers with textures of their own; indirect: of that what was reflected "
-        "before, for viewers that light by lamps, too [radiosity]");
+    add_choice(command, "--bake", settings.bake,
+               {{Bake::radiosity, name_of(Bake::radiosity)},
+                {Bake::irradiance, name_of(Bake::irradiance)},
+                {Bake::indirect, name_of(Bake::indirect)}},
+               "what .glb and .ply files hold: what surfaces send; what arrives, for viewers with "
+               "textures of their own; of that what was reflected before [radiosity]");
     add_whole<int>(
         command, "--lightmap", settings.lightmap, 16, SolveSettings::max_lightmap,
-        "beside .glb files the light as a picture NAME.lightmap.exr of N x N texels, gathered "
-        "unless --no-gather, linear floats, for the texture coordinates TEXCOORD_1");
+        "beside .glb files the light as a picture NAME.lightmap.exr of N x N texels, for the "
+        "texture coordinates TEXCOORD_1");
     add_choice(command, "--ply-colours", settings.ply_colours,
                {{PlyColours::linear, "linear"}, {PlyColours::shown, "shown"}},
-               "colours of .ply files: linear: the light itself as float; shown: 8 bits as "
-               "pictures show it, with the light as further properties [linear]");
+               "colours of .ply files: the light as float; 8 bits as pictures show it [linear]");
     add_view_options(command, settings.view);
 }
 
@@ -140,8 +133,7 @@ void add_point_options(Command command, SolveSettings& settings) {
         "times as many [16, or as many as --error needs]");
     command.add_action(
         "--no-gather", [&settings] { settings.gather_pictures = false; },
-        "pictures interpolate the light of the patches: sooner done, shadows as patches have "
-        "them");
+        "pictures interpolate the light of the patches");
 }
 
 /// Adds one thing that --for names.
@@ -165,8 +157,8 @@ void add_target(const std::string& text, TargetSettings& target) {
 void add_target_option(Command command, TargetSettings& target) {
     command
         .add_values("--for", "camera|group:NAME|points:FILE",
-                    "what is to be right to --error, all else may be rough: what the picture of "
-                    "--camera shows, a group, the patches at points as of --points; repeatable",
+                    "what is to be right to --error, all else may be rough: what --camera shows, a "
+                    "group, patches at points; repeatable",
                     [&target](const std::vector<std::string>& texts) {
                         for (const std::string& text : texts)
                             add_target(text, target);
@@ -189,14 +181,10 @@ void add_comparison_options(Command command, SolveSettings& settings) {
 constexpr const char* solve_examples = R"(
 Examples:
   hemilux solve room.obj -o room.png
-  hemilux solve room.obj --divide auto --error 0.03 -o room.png
-  hemilux solve room.obj --max-edge 0.1 --error 0.01 -o room.hdr -o room.csv
+  hemilux solve room.obj --sky 1 --error 1% -o room.hdr -o room.csv
   hemilux solve room.obj --points desks.txt --points-output desks.csv
   hemilux solve house.obj --for group:kitchen --error 0.02 -o house.csv
   hemilux solve map.obj --emission 'Lava=8,2,0.3' --reflectance '*=0.6' -o map.ply
-  hemilux solve room.obj --method matrix -o reference.csv
-  hemilux solve room.obj --reference reference.csv --steps-log steps.csv
-  hemilux solve room.obj --steps 999 -o room.csv --checkpoint room.saved
   hemilux solve room.obj --steps 999 -o room.csv --checkpoint room.saved --resume room.saved
 )";
 
@@ -220,10 +208,9 @@ std::optional<DivisionChoice> division_from(const std::string& text) {
 void add_divide_option(Command command, Option max_edge, SolveSettings& settings) {
     add_parsed(
         command, "--divide", "auto|none|LENGTH",
-        "patches: auto: divided where the light changes within them, and linear light on each, "
-        "until the error of the light itself is that of --error [0.05]; none: the faces; LENGTH: "
-        "as --max-edge [auto where a mesh is written, below 20 000 patches, for the default method "
-        "without --steps, --every-step, --reference, --checkpoint and --for; else none]",
+        "divide faces into patches: auto: where light changes, until that of patches is right to "
+        "--error [0.05]; none; LENGTH: as --max-edge [auto for small meshes that are written, else "
+        "none]",
         "auto, none or a length above 0", division_from,
         [&settings](const DivisionChoice& choice) {
             settings.divide_given = true;
@@ -250,25 +237,24 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     const Command stop = command.under("Stop at the first that is met");
     add_stop_options(stop, settings.stop);
     stop.add_flag("--useful", settings.useful,
-                  "once the picture of the patches is useful: by its standard errors it looks as "
-                  "the one without noise (structural similarity of 0.95 at 640 pixels); pictures "
-                  "are not gathered then without --gather");
+                  "once the picture of the patches looks as one without noise (structural "
+                  "similarity of 0.95 at 640 pixels); not gathered then without --gather");
     add_error_accuracy_option(stop, settings.error_accuracy);
     add_whole_error_option(scene, settings);
-    add_target_option(command.under("Target"), settings.target);
+    add_target_option(stop, settings.target);
     add_output_options(outputs, settings);
     add_point_options(outputs, settings);
     add_layers_option(outputs, settings.layers);
     add_error_map_option(outputs, settings);
     add_report_option(outputs, settings.report,
-                      "a page for a browser: the lit scene to turn around, the numbers of each "
-                      "patch, how the run went");
-    add_checkpoint_options(command.under("Checkpoints"), settings.checkpoint);
-    add_comparison_options(command.under(comparison_group), settings);
+                      "a page for a browser: the lit scene to turn around, how the run went");
+    add_checkpoint_options(stop, settings.checkpoint);
+    add_comparison_options(outputs, settings);
     add_verbosity_options(command, settings.verbosity);
     constexpr auto often_used = std::to_array({"--output", "--error", "--time", "--camera",
                                                "--size", "--points", "--divide", "--threads"});
     command.call_often_used(often_used);
+    fold_own_options(command);
     command.end_help_with(methods_text() + solve_examples + exit_codes);
     return command;
 }

@@ -2,6 +2,8 @@
 
 #include "app/command_line/option_groups.h"
 #include "app/command_line/option_kinds.h"
+#include "app/settings/exit_code.h"
+#include "app/settings/names.h"
 
 #include <algorithm>
 
@@ -24,14 +26,59 @@ void add_detail_option(Command command, std::vector<std::string>& detail) {
         .repeatable();
 }
 
-std::string methods_text() {
-    std::string text = "Methods:\n";
-    for (const Method* const method : methods()) {
-        std::string name(method->name);
-        name.resize(std::max<std::size_t>(name.size() + 2, 26), ' ');
-        text += "  " + name + std::string(method->summary) + "\n";
+void fold_own_options(Command command) {
+    command.fold_in_help(own_group, "--help METHOD says what they do");
+}
+
+namespace {
+
+std::string text_of(const Method& method) {
+    std::string text = std::string(method.name) + "\n" + std::string(method.summary) + "\n";
+    const std::vector<MethodOption> all = method.own_options();
+    text += all.empty() ? "It has no options of its own.\n" : "\nIts own options:\n";
+    for (const MethodOption& own : all) {
+        if (is_alias(own))
+            continue;
+        std::string line =
+            "  " + own.name + (own.values.empty() ? "" : " " + joined(own.values, "|"));
+        constexpr std::size_t column = 30;
+        if (line.size() + 1 > column)
+            line += "\n" + std::string(column, ' ');
+        line.resize(std::max(line.size(), column), ' ');
+        text += line + own.help + "\n";
     }
-    return text;
+    return help_in_columns(text + "\nhemilux solve --help lists what all methods take.\n");
+}
+
+} // namespace
+
+std::optional<std::string> method_help(const std::vector<std::string>& words) {
+    const auto help = std::ranges::find(words, "--help");
+    if (help == words.end() || help + 1 == words.end() ||
+        (words.front() != "solve" && words.front() != "compare"))
+        return std::nullopt;
+    const std::string& name = *(help + 1);
+    if (const Method* const method = find_method(name))
+        return text_of(*method);
+    if (name.find_first_of("-./") != std::string::npos) // an option or a file
+        return std::nullopt;
+    std::vector<std::string> names;
+    for (const Method* const method : methods())
+        names.emplace_back(method->name);
+    throw UsageError("--help: " + unknown_name("method", name, names));
+}
+
+std::string methods_text() {
+    std::string text = "Methods (--help METHOD says what one does):", line = " ";
+    constexpr std::size_t width = 80;
+    for (const Method* const method : methods()) {
+        if (line.size() + 1 + method->name.size() > width) {
+            text += "\n" + line;
+            line = " ";
+        }
+        line += " " + std::string(method->name);
+    }
+    return text + "\n" + line + "\n";
 }
 
 } // namespace hemilux

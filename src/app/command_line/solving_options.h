@@ -21,8 +21,13 @@ void add_layers_option(Command command, std::optional<LayersBy>& layers);
 /// Adds --detail.
 void add_detail_option(Command command, std::vector<std::string>& detail);
 
-/// Returns the methods with their summaries, a line each.
+/// Returns the names of the methods.
 [[nodiscard]] std::string methods_text();
+/// Returns the help of one method where the words ask for that, as `solve --help METHOD`: what it
+/// is, and the options that it alone or few have. Throws UsageError for another name.
+[[nodiscard]] std::optional<std::string> method_help(const std::vector<std::string>& words);
+/// Lets --help name these options only; `--help METHOD` says what they do.
+void fold_own_options(Command command);
 /// This text says what the program's exit codes mean.
 inline constexpr const char* exit_codes = R"(
 Exit codes: 0 done, 1 wrong usage, 2 bad input, 3 output or system failure,

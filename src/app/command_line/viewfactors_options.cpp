@@ -4,6 +4,7 @@
 #include "app/settings/factor_aim.h"
 #include "geometry/numeric.h"
 
+#include <array>
 #include <bit>
 
 namespace hemilux {
@@ -132,6 +133,9 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
              "standard_error",
              ".csv", [&settings](const std::string& path) { settings.sunlit = path; });
     add_verbosity_options(command, settings.verbosity);
+    command.in_family(factor_family);
+    command.call_often_used(std::to_array(
+        {"--output", "--by", "--error", "--time", "--of", "--sky", "--points", "--threads"}));
     command.end_help_with(viewfactors_examples);
     return command;
 }
@@ -154,6 +158,9 @@ Command add_exchange_command(Arguments& program, ViewFactorSettings& settings) {
              [&settings](const std::string& path) { settings.heat.output = path; })
         .required();
     add_verbosity_options(command, settings.verbosity);
+    command.in_family(factor_family);
+    command.call_often_used(
+        std::to_array({"--output", "--surfaces", "--by", "--error", "--time", "--threads"}));
     command.end_help_with(exchange_examples);
     return command;
 }

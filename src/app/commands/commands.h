@@ -9,6 +9,9 @@ struct DimSettings;        // dim_settings.h
 struct ViewFactorSettings; // view_factor_settings.h
 
 int solve(const SolveSettings& settings);
+/// `hemilux MODEL`: solves it with a light where it has none, and writes a picture of it where
+/// nothing else is asked for.
+int light_model(SolveSettings settings);
 /// Writes the scene's own file with its ambient occlusion; nothing is solved.
 int bake_occlusion(const SolveSettings& settings);
 int compare(const CompareSettings& settings);

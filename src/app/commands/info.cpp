@@ -2,6 +2,7 @@
 
 #include "app/commands/commands.h"
 #include "app/division/needed_division.h"
+#include "app/loading/lights.h"
 #include "app/loading/load.h"
 #include "app/loading/sides.h"
 #include "app/memory/memory.h"
@@ -11,6 +12,7 @@
 #include "app/terminal/print.h"
 #include "app/terminal/stage.h"
 #include "app/terminal/wrap.h"
+#include "io/files/text_words.h"
 #include "io/results/scene_info_json.h"
 #include "radiosity/engine/needs/find_needs.h"
 
@@ -25,17 +27,22 @@ std::string describe(const SceneReport& report, const Scene& scene, const SceneS
     std::string text = describe(report.info);
     if (scene.facets.empty())
         return text;
+    const std::vector<std::string> lamps = likely_lamps(scene);
+    if (report.info.emitters.empty() && !lamps.empty())
+        text += info_line("lamps by name", list_names(lamps) + " (--emission makes them shine)");
     text += report.sides ? describe(*report.sides, scene, asked.sides) : describe_both_sides(scene);
     if (asked.mesh.max_edge > 0 || asked.mesh.two_sided)
         text += info_line("patches", std::to_string(report.patches) + " (as divided)");
     if (report.error_division && std::isnan(*report.error_division))
-        text += info_line("within patches",
-                          "how much light differs is not known: half a minute was not enough");
+        text +=
+            info_line("within patches",
+                      "it is not known how much the light differs: half a minute was not enough");
     else if (report.error_division)
-        text += info_line("within patches",
-                          "light differs by " + percent(*report.error_division) +
-                              " (as they are; --divide auto divides them where it is too much)");
-    return text + describe(report.left_out);
+        text +=
+            info_line("within patches", "light differs by " + percent(*report.error_division) +
+                                            " (--divide auto divides them where it is too much)");
+    const bool is_dark = report.info.emitters.empty() && report.info.points.empty();
+    return is_dark ? text : text + describe(report.left_out); // of a dark scene, all is left out
 }
 
 /// The scene is there once as it was read, and once with its faces turned.

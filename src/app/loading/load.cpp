@@ -58,8 +58,9 @@ void check_emission(const Material& material, const std::string& path) {
 
 std::string no_light_text(const Scene& scene, const std::vector<std::string>& materials) {
     const std::vector<std::string> lamps = likely_lamps(scene);
-    return "nothing emits light; --sky 1 lights it from all sides, --light puts in a lamp, and "
-           "--emission 'MATERIAL=R,G,B' makes a material emit. Its materials: " +
+    return "nothing emits light; `hemilux MODEL` lights a model by itself, --sky 1 lights it from "
+           "all sides, --light puts in a lamp, and --emission 'MATERIAL=R,G,B' makes a material "
+           "emit. Its materials: " +
            list_names(materials) +
            (lamps.empty() ? "" : "; by their names these may be lamps: " + list_names(lamps));
 }
@@ -108,7 +109,10 @@ ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
     apply_overrides(read.scene, &Material::reflectance, settings.reflectance);
     if (settings.glass == Glass::open)
         open_glass(read);
-    add_lights(read.scene, settings);
+    SceneSettings lights = settings;
+    if (settings.more_light)
+        settings.more_light(read, lights);
+    add_lights(read.scene, lights);
     return read;
 }
 

@@ -4,6 +4,7 @@
 #include "app/running/same_run.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
+#include "app/settings/shell_word.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
@@ -154,7 +155,8 @@ RunFiles check_files(const SolveSettings& settings) {
     std::vector<RoleAndPath> written = results_of(settings);
     check_points(settings);
     if (written.empty())
-        throw UsageError("nothing would be written; add an output such as -o picture.png");
+        throw UsageError("nothing would be written; add an output such as -o picture.png, or let " +
+                         ("`hemilux " + shell_word(settings.scene.path) + "` name a picture"));
     check_every_step(settings);
     if (!settings.checkpoint.path.empty())
         written.emplace_back("checkpoint", settings.checkpoint.path);

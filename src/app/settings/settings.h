@@ -17,11 +17,14 @@
 #include "radiosity/paper/scene/mesh.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace hemilux {
+
+struct ReadResult; // io/scene_files/read_result.h
 
 /// The sides of faces that emit and reflect.
 enum class Sides { automatic, front, both };
@@ -42,6 +45,8 @@ struct SceneSettings {
     bool textures = true;                ///< they are read
     Outside outside = Outside::reported; ///< files that the scene names in other folders
     MeshOptions mesh;                    ///< two-sided with Sides::both
+    /// Adds lights to those above, once the scene was read with them; empty: none are added.
+    std::function<void(const ReadResult&, SceneSettings&)> more_light;
     std::optional<std::uint64_t> memory; ///< bytes that a run may need
 };
 

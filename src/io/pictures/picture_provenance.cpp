@@ -1,6 +1,7 @@
 #include "io/pictures/picture_provenance.h"
 
 #include <algorithm>
+#include <fstream>
 #include <string_view>
 
 namespace hemilux {
@@ -48,6 +49,25 @@ void add_to_png(std::string& file, const Provenance& from) {
         file.insert(signature + header_chunk, text_chunk("Software", from.program) +
                                                   text_chunk("Command", from.command) +
                                                   text_chunk("Seed", std::to_string(from.seed)));
+}
+
+std::string as_written(const std::string& command) { return plain_line(command); }
+
+std::string command_of_png(const std::string& path) {
+    constexpr std::size_t longest = 1 << 16; // of the header and the texts after it
+    std::ifstream file(path, std::ios::binary);
+    std::string start(longest, '\0');
+    file.read(start.data(), std::streamsize(longest));
+    start.resize(std::size_t(file.gcount()));
+    constexpr std::string_view signature("\x89PNG\r\n\x1a\n"), chunk("tEXtCommand\0", 12);
+    const std::size_t at = start.find(chunk);
+    if (!start.starts_with(signature) || at == std::string::npos || at < 4)
+        return {};
+    std::size_t length = 0;
+    for (std::size_t k = at - 4; k < at; ++k)
+        length = length << 8 | static_cast<unsigned char>(start[k]);
+    constexpr std::size_t keyword = 8;
+    return length < keyword ? std::string() : start.substr(at + chunk.size(), length - keyword);
 }
 
 void add_to_hdr(std::string& file, const Provenance& from) {

@@ -116,12 +116,30 @@ std::string describe_glass(const std::vector<GlassInfo>& all) {
     return text;
 }
 
+/// Returns the faces, and the triangles and quads that they are made into.
+std::string faces_text(const SceneInfo& info) {
+    std::string shapes;
+    if (info.triangles > 0)
+        shapes = counted(info.triangles, "triangle", "triangles");
+    if (info.quads > 0)
+        shapes += (shapes.empty() ? "" : " and ") + counted(info.quads, "quad", "quads");
+    const std::string faces = text_of(info.faces);
+    return shapes.empty() ? faces : faces + " (" + shapes + ")";
+}
+
+/// Returns the power that all lights emit, or what to do where there are none.
+std::string describe_power(const SceneInfo& info) {
+    if (info.emitters.empty() && info.points.empty())
+        return info_line("light", "none: nothing emits light. `hemilux MODEL` lights it by itself; "
+                                  "solve and bake need --sky 1, a --sun, a --light or --emission "
+                                  "'MATERIAL=R,G,B'");
+    return info_line("emitted power", text_of(info.emitted_power) + " W (red, green, blue)");
+}
+
 /// Returns a line for each of the first emitters.
 std::string describe_emitters(const std::vector<EmitterInfo>& emitters) {
     constexpr std::size_t most = 8;
     const std::string name = "emitting materials";
-    if (emitters.empty())
-        return info_line(name, "none");
     std::string text;
     for (std::size_t k = 0; k < std::min(emitters.size(), most); ++k) {
         const EmitterInfo& emitter = emitters[k];
@@ -197,18 +215,15 @@ std::string info_line(std::string name, const std::string& value) {
 
 std::string describe(const SceneInfo& info) {
     std::string text;
-    text += info_line("faces", text_of(info.faces));
-    text += info_line("facets", text_of(info.facets) + " (" +
-                                    counted(info.triangles, "triangle", "triangles") + ", " +
-                                    counted(info.quads, "quad", "quads") + ")");
+    text += info_line("faces", faces_text(info));
     text += info_line("vertices", text_of(info.vertices));
     text += info_line("materials", text_of(info.materials));
     text += info_line("groups", text_of(info.groups));
     text += info_line("lowest corner", text_of(info.bounds.low));
     text += info_line("highest corner", text_of(info.bounds.high));
-    text += info_line("size", text_of(info.bounds.extent()));
+    text += info_line("size", text_of(info.bounds.extent()) + " (taken as metres)");
     text += info_line("total area", text_of(info.total_area));
-    text += info_line("emitted power", text_of(info.emitted_power) + " (red, green, blue)");
+    text += describe_power(info);
     text += describe_emitters(info.emitters);
     text += describe_points(info.points);
     text += describe_glass(info.glass);
@@ -216,14 +231,14 @@ std::string describe(const SceneInfo& info) {
     add_doubt(text, "not planar", info.nonplanar_faces, "face", "divided into triangles");
     add_doubt(text, "concave", info.concave_faces, "face", "divided into triangles");
     add_doubt(text, "open edges", info.open_edges, "edge",
-              "of only one face: a boundary, or a vertex on an edge of another face");
+              "of only one face: the end of a surface, or a gap through which light may leak");
     add_doubt(text, "shared edges", info.nonmanifold_edges, "edge", "of more than two faces");
-    add_doubt(text, "covered", info.covered_facets, "facet",
+    add_doubt(text, "covered", info.covered_facets, "face",
               "in the place of another that faces the same way, wholly or in part; one of "
               "them is seen");
     if (!info.all_compared)
         text += info_line("covered",
-                          "perhaps more: too many facets lie over each other to compare them all");
+                          "perhaps more: too many faces lie over each other to compare them all");
     for (const std::string& message : info.bad_reflectances)
         text += info_line("bad reflectance", message);
     return text;
@@ -232,8 +247,7 @@ std::string describe(const SceneInfo& info) {
 std::string describe(std::span<const LeftOut> left_out) {
     std::string text;
     for (const LeftOut& item : left_out)
-        text += info_line(text.empty() ? "not needed" : "",
-                          item.what + ": " + item.why + "; saves " + item.saved);
+        text += info_line(text.empty() ? "solve leaves out" : "", item.what + ": " + item.why);
     return text;
 }
 

@@ -18,16 +18,17 @@ TEST_CASE("info shows what a scene does not need") {
     const Workplace place;
     place.write_room();
     const std::string colours = place.hemilux("info room.obj").out;
-    CHECK_THAT(colours, Contains("not needed") && Contains("convex enclosure"));
+    CHECK_THAT(colours, Contains("solve leaves out") && Contains("convex enclosure"));
     CHECK_THAT(colours, !Contains("grey"));
     CHECK_THAT(place.hemilux("info room.obj --reflectance '*=.5' --emission lamp=3").out,
                Contains("two of three colour channels"));
     CHECK_THAT(place.hemilux("info room.obj --reflectance '*=0'").out,
                Contains("nothing reflects"));
     CHECK_THAT(place.hemilux("info room.obj --two-sided").out, Contains("no light can reach"));
-    // Without light there is still something to say.
+    // Without light, that is what there is to say.
     CHECK_THAT(place.hemilux("info room.obj --emission '*=0'").out,
-               Contains("24 patches: no light can reach them"));
+               Contains("nothing emits light. `hemilux MODEL` lights it") &&
+                   Contains("lamps by name       lamp") && !Contains("solve leaves out"));
 }
 
 namespace {

@@ -107,14 +107,19 @@ TEST_CASE("the description says what there is and what is doubtful", "[inspect]"
     const std::string closed = describe(inspect(read_box(true)));
     CHECK(closed.find("total area") != std::string::npos);
     CHECK(closed.find("22\n") != std::string::npos);
-    CHECK(closed.find("6 4 2") != std::string::npos);
+    CHECK(closed.find("6 4 2 W") != std::string::npos);
+    ReadResult dark = read_box(true);
+    for (Material& material : dark.scene.materials)
+        material.emission = Vec3(0.0);
+    CHECK(describe(inspect(dark)).find("nothing emits light") != std::string::npos);
+    CHECK(closed.find("nothing emits light") == std::string::npos);
     CHECK(closed.find("edges of only one face") == std::string::npos);
     const std::string open = describe(inspect(read_box(false, "f 1 1 2\n")));
     CHECK(open.find("4 (edges of only one face") != std::string::npos);
     CHECK(open.find("without area        1 (face left out)") != std::string::npos);
-    CHECK(closed.find("6 (0 triangles, 6 quads)") != std::string::npos);
+    CHECK(closed.find("6 (6 quads)") != std::string::npos);
     CHECK(describe(inspect(read_box(true, "f 1 2 3\nf 1 1 2\nf 2 2 3\n")))
-              .find("7 (1 triangle, 6 quads)") != std::string::npos);
+              .find("1 triangle and 6 quads") != std::string::npos);
     CHECK(describe(inspect(read_box(true, "f 1 1 2\nf 2 2 3\n"))).find("2 (faces left out)") !=
           std::string::npos);
 }
@@ -126,7 +131,7 @@ TEST_CASE("facets beneath another that faces the same way are counted", "[inspec
         read_box(true, "f -2 -1 -4 -3\nf -1 -2 -3 -4\nv 0 0 3\nv 1 0 3.0000000000000004\nv 1 2 3\n"
                        "v 0 2 3\nf -4 -3 -2 -1\n"));
     CHECK(info.covered_facets == 2);
-    CHECK(describe(info).find("covered             2 (facets in the place of another") !=
+    CHECK(describe(info).find("covered             2 (faces in the place of another") !=
           std::string::npos);
     CHECK(inspect(read_box(true)).covered_facets == 0);
     CHECK(inspect(read_box(true, "v .2 .2 3\nv .7 .2 3\nv .7 .9 3\nv .2 .9 3\nf -4 -3 -2 -1\n"))

@@ -121,6 +121,7 @@ std::string zsh(const std::vector<CommandText>& program, const std::vector<std::
         text += "            '" + program[k].name + ":" + summary(program[k].description) + "'\n";
     text += "            'help:what can be asked for'\n        )\n"
             "        _describe subcommand commands\n"
+            "        _files\n"
             "        return\n"
             "    fi\n"
             "    shift words\n"
@@ -170,8 +171,12 @@ std::string fish(const std::vector<CommandText>& program, const std::vector<std:
 
 } // namespace
 
-std::string completions(std::string_view shell, const std::vector<CommandText>& program,
+std::string completions(std::string_view shell, const std::vector<CommandText>& described,
                         const std::vector<std::string>& methods) {
+    std::vector<CommandText> program = described;
+    for (CommandText& command : program)
+        std::erase_if(command.options,
+                      [](const OptionText& option) { return option.group.empty(); });
     return shell == "bash"   ? bash(program, methods)
            : shell == "zsh"  ? zsh(program, methods)
            : shell == "fish" ? fish(program, methods)

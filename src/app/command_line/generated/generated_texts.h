@@ -9,6 +9,15 @@
 
 namespace hemilux {
 
+/// This is the heading of the options that the short help has.
+inline constexpr const char* often_used_group = "Often used";
+
+/// Returns the short help of a subcommand: its first three examples and the options that are often
+/// used.
+[[nodiscard]] std::string short_help(const CommandText& command);
+/// Returns the short help of the program.
+[[nodiscard]] std::string short_help(const std::vector<CommandText>& program);
+
 /// Returns a manual page (man macros of roff), with `version` in its foot line.
 [[nodiscard]] std::string manual_page(const std::vector<CommandText>& program,
                                       const std::string& version);

@@ -23,6 +23,8 @@ std::string italic(const std::string& text) { return "\\fI" + plain(text) + "\\f
 void write_options(std::ostream& page, const CommandText& command) {
     std::string group;
     for (const OptionText& option : command.options) {
+        if (option.group.empty())
+            continue;
         if (option.group != group)
             page << ".SS \"" << plain(group = option.group) << "\"\n";
         page << ".TP\n";

@@ -52,21 +52,23 @@ MethodOption factors_option(bool with_exact) {
     const auto set = [with_exact](SolveOptions& options, std::string_view text) {
         return (with_exact || text != "exact") && set_factors(options, text);
     };
-    return {.name = "--factors",
-            .help = "form factors by rays; exact: as --exact; hemicube: by a hemicube over each "
-                    "patch, N pixels along its edge [rays; N 64]",
-            .values = with_exact
-                          ? std::vector<std::string>{"rays", "exact", "hemicube", "hemicube:N"}
-                          : std::vector<std::string>{"rays", "hemicube", "hemicube:N"},
-            .set = set,
-            .get = factors_text,
-            .on_page = false};
+    return {
+        .name = "--factors",
+        .help = "form factors by rays; exact: without chance where patches see each other fully, "
+                "for up to " +
+                std::to_string(max_patches_for_exact_factors) +
+                " patches; hemicube: by a hemicube over each patch, N pixels along its edge "
+                "[rays; N 64]",
+        .values = with_exact ? std::vector<std::string>{"rays", "exact", "hemicube", "hemicube:N"}
+                             : std::vector<std::string>{"rays", "hemicube", "hemicube:N"},
+        .set = set,
+        .get = factors_text,
+        .on_page = false};
 }
 
 MethodOption exact_option() {
     return {.name = "--exact",
-            .help = "form factors without chance where patches see each other fully; for up to " +
-                    std::to_string(max_patches_for_exact_factors) + " patches",
+            .help = "the same as --factors exact",
             .values = {},
             .set =
                 [](SolveOptions& options, std::string_view text) {

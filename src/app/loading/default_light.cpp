@@ -1,0 +1,198 @@
+#include "app/loading/default_light.h"
+
+#include "app/loading/lights.h"
+#include "app/loading/load.h"
+#include "app/settings/text.h"
+#include "io/pictures/automatic_camera.h"
+#include "io/pictures/camera.h"
+#include "io/scene_files/inspect.h"
+#include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/engine/rays/point_emitter.h"
+#include "radiosity/light/rooms/default_light.h"
+#include "radiosity/light/rooms/reached_places.h"
+#include "radiosity/paper/scene/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+namespace {
+
+/// Returns the places that a camera shows, which looks through backs.
+std::vector<SeenPlace> places_of_picture(const Mesh& mesh, const Tracer& tracer,
+                                         const Camera& camera, PixelSize size) {
+    constexpr int columns = 32, rows = 24;
+    std::vector<SeenPlace> places;
+    if (mesh.frame().to_local(camera.eye) == mesh.frame().to_local(camera.target))
+        return places; // which is refused later
+    const CameraRays view(camera, mesh, double(size.width) / size.height);
+    for (int k = 0; k < columns * rows; ++k) {
+        const Ray ray = view.ray((k % columns + 0.5) / columns, (k / columns + 0.5) / rows);
+        const auto visible = look(mesh, tracer, ray);
+        if (!visible || mesh.material(visible->patch).is_far)
+            continue;
+        const Hit& hit = visible->hit;
+        places.push_back({ray.origin + hit.t * ray.direction,
+                          mesh.whole_side(hit.facet, !hit.front).normal, hit.facet});
+    }
+    return places;
+}
+
+bool emits(const Scene& scene) {
+    const std::vector<bool> used = materials_in_use(scene);
+    for (std::size_t m = 0; m < used.size(); ++m)
+        if (used[m] && scene.materials[m].emission != Vec3(0.0))
+            return true;
+    return std::ranges::any_of(point_emitters_of(scene), [](const PointEmitter& emitter) {
+        return emitter.intensity != Vec3(0.0);
+    });
+}
+
+/// Returns a scene with the sides that were asked for; none is turned.
+Mesh mesh_of(Scene scene, Sides sides) {
+    for (Facet& facet : scene.facets)
+        facet.two_sided = facet.two_sided && sides != Sides::front;
+    return Mesh(std::move(scene), {.two_sided = sides == Sides::both});
+}
+
+/// Returns the share of what can be looked at that light reaches.
+double share_lit(const Mesh& mesh, const Tracer& tracer, Sides sides, const ViewSettings& view,
+                 const std::optional<Camera>& camera) {
+    if (camera) {
+        const auto places = places_of_picture(mesh, tracer, *camera, view.size);
+        if (!places.empty())
+            return share_reached_by_light(mesh, tracer, places);
+    }
+    if (sides == Sides::front)
+        return share_reached_by_light(mesh, tracer, find_free_space(mesh, tracer).seen);
+    // Which sides look away from the light is found later, so any side may be lit.
+    const Mesh both = mesh_of(mesh.scene(), Sides::both);
+    return share_reached_by_light(both, tracer, find_free_space(both, tracer).seen);
+}
+
+/// Returns a coordinate to a hundredth of `unit`.
+std::string place_text(double x, double unit) {
+    constexpr int most = 17;
+    const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(unit))), 0, most);
+    std::string text = formatted("%.*f", decimals, x);
+    if (decimals > 0) {
+        text.erase(text.find_last_not_of('0') + 1);
+        if (text.ends_with('.'))
+            text.pop_back();
+    }
+    return text == "-0" ? "0" : text;
+}
+
+std::string text_of(const Vec3& v, double unit) {
+    return place_text(v.x, unit) + "," + place_text(v.y, unit) + "," + place_text(v.z, unit);
+}
+
+/// Returns a lamp as --light takes it. What it lights gets about 1 W/m2.
+std::string lamp_text(const RoomLamp& lamp, const LocalFrame& frame, int up) {
+    Vec3 down(0.0);
+    down[up] = -1;
+    const double radius = lamp.radius / frame.scale;
+    return "disc at " + text_of(frame.to_world(lamp.centre), radius) + " towards " +
+           text_of(down, 1) + formatted(" radius %.2g", radius) +
+           formatted(" watts %.2g", frame.area_to_world(lamp.area));
+}
+
+/// What is known of a scene whose light is chosen.
+struct Dark {
+    const Scene& read; ///< without lights of options
+    const Mesh& mesh;
+    const Tracer& tracer;
+    const ViewSettings& view;
+    std::optional<Camera> camera;
+    int up;
+};
+
+void add(PutIn& to, const std::string& option) {
+    to.options += (to.options.empty() ? "" : " ") + option;
+}
+
+/// Adds a sky of 1 W/m2 and a sun of 3.
+void add_daylight(PutIn& to, SceneSettings& settings, const Vec3& direction) {
+    if (!settings.sky) {
+        settings.sky = Vec3(1.0);
+        add(to, "--sky 1");
+    }
+    const std::string sun = text_of(direction, 1) + ",3";
+    settings.suns.push_back(parse_sun(sun).value());
+    add(to, "--sun=" + sun); // a number below 0 is no option then
+}
+
+void add_lamp(PutIn& to, SceneSettings& settings, const std::string& text) {
+    if (const std::optional<LightSettings> light = parse_light(text)) {
+        settings.lights.push_back(*light);
+        add(to, "--light '" + text + "'");
+    }
+}
+
+/// Adds a chosen light to the settings and to what is said of it.
+void add(PutIn& to, SceneSettings& settings, const Dark& dark, const DefaultLight& light) {
+    for (const RoomLamp& lamp : light.lamps)
+        add_lamp(to, settings, lamp_text(lamp, dark.mesh.frame(), dark.up));
+    if (light.sky)
+        add_daylight(to, settings, light.sun);
+}
+
+/// Returns whether what can be looked at is lit in a scene with the lights of the settings.
+bool is_lit(const Mesh& mesh, const Tracer& tracer, Sides sides, const ViewSettings& view,
+            const std::optional<Camera>& camera) {
+    constexpr double enough = 0.03; // of the places
+    return share_lit(mesh, tracer, sides, view, camera) >= enough;
+}
+
+/// Returns whether the camera sees next to nothing by the light that was put in.
+bool stays_dark(const Dark& dark, const SceneSettings& settings) {
+    if (!dark.camera)
+        return false;
+    Scene scene = dark.read;
+    add_lights(scene, settings);
+    const Mesh mesh = mesh_of(std::move(scene), settings.sides);
+    const MadeTracer made = make_tracer(mesh, needs_tree(mesh));
+    return !is_lit(mesh, *made.tracer, settings.sides, dark.view, dark.camera);
+}
+
+} // namespace
+
+std::optional<PutIn> put_in_light(const ReadResult& read, SceneSettings& settings,
+                                  const ViewSettings& view) {
+    if (read.scene.facets.empty() || !find_bad_reflectances(read).empty())
+        return std::nullopt; // which is refused later
+    Scene scene = read.scene;
+    add_lights(scene, settings);
+    const bool has_light = emits(scene);
+    const Mesh mesh = mesh_of(std::move(scene), settings.sides);
+    const MadeTracer made = make_tracer(mesh, needs_tree(mesh));
+    const FileView file = view_of_file(settings.path, read);
+    const std::optional<Camera> camera =
+        view.camera || !view.uses_camera_of_scene ? view.camera : file.camera;
+    if (has_light && is_lit(mesh, *made.tracer, settings.sides, view, camera))
+        return std::nullopt;
+    const int up = view.up ? *view.up : file.up ? *file.up : guess_up(mesh);
+    const Dark dark{read.scene, mesh, *made.tracer, view, camera, up};
+    const FreeSpace free = find_free_space(mesh, *made.tracer);
+    const auto put_in = [&](SceneSettings& to, bool rooms_too) {
+        PutIn added{.why = !has_light ? "nothing emits light"
+                           : camera   ? "hardly any light reaches what the camera shows"
+                                      : "hardly any light reaches where one can look",
+                    .options = {}};
+        add(added, to, dark, choose_default_light(mesh, *made.tracer, free, up, rooms_too));
+        return added;
+    };
+    SceneSettings lit = settings;
+    PutIn added = put_in(lit, false);
+    if (stays_dark(dark, lit)) {
+        lit = settings;
+        added = put_in(lit, true);
+    }
+    settings = std::move(lit);
+    return added;
+}
+
+} // namespace hemilux
