@@ -79,9 +79,8 @@ void write_pictures(const Comparison& comparison, std::span<const MethodRuns> re
     ViewSettings view = comparison.settings.view;
     const Reference& reference = comparison.reference;
     const Camera camera = camera_of(comparison);
-    const PictureTime time(comparison.monitor.interrupted.own().wished);
-    const RenderOptions options =
-        picture_options(view.size, comparison.settings.options.threads, time);
+    const RenderOptions options = picture_options(view.size, comparison.settings.options.threads,
+                                                  comparison.monitor.interrupted.own().wished);
     const auto picture = [&](std::span<const Vec3> radiosity) {
         return render_view(lit_by(comparison, radiosity), camera, options);
     };

@@ -14,6 +14,7 @@
 #include "app/loading/load.h"
 #include "app/loading/reference.h"
 #include "app/memory/memory.h"
+#include "app/outputs/preview.h"
 #include "app/outputs/step_pictures.h"
 #include "app/outputs/useful_picture.h"
 #include "app/rendering/view.h"
@@ -228,9 +229,14 @@ std::optional<Reference> take_reference(Problem& problem) {
                         detail_mask(problem.mesh(), problem.settings().detail));
 }
 
+LitScene lit_scene(const Problem& problem, const Solution& solution) {
+    return {problem.mesh(), problem.tracer(), solution.radiosity,
+            problem.settings().options.threads};
+}
+
 /// Takes the steps. Goes on with the run by which the patches were divided, where there is one.
 Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference>& reference,
-               double seconds_divide) {
+               double seconds_divide, Preview& preview) {
     const SolveSettings& settings = problem.settings();
     const std::optional<Checkpoint>& resumed = problem.loaded.resumed;
     const Mesh& mesh = problem.mesh();
@@ -283,6 +289,7 @@ Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference
         add_row(record);
         keep_light(solution);
         show_last_row(solution);
+        preview.show(lit_scene(problem, solution), solution);
         checkpointer.step_done(done.rows, record.seconds);
     };
     if (is_begun && !divided.steps.empty()) {
@@ -328,11 +335,6 @@ void add_errors(Statistics& statistics, const Problem& problem, const Divided& d
             settings.ranks->of_each(RankFigures{settings.ranks->work(), statistics.bytes_peak});
 }
 
-LitScene lit_scene(const Problem& problem, const Solution& solution) {
-    return {problem.mesh(), problem.tracer(), solution.radiosity,
-            problem.settings().options.threads};
-}
-
 /// Returns where surfaces lie in the lightmaps that are gathered.
 std::vector<NamedLayout> lightmap_layouts(const Problem& problem) {
     const SolveSettings& settings = problem.settings();
@@ -361,7 +363,7 @@ struct GivenLight {
 /// Gathers light where outputs show that; chooses the camera of pictures. Then finds what each lamp
 /// brings of all this, where it is asked for.
 GivenLight give_light(const Problem& problem, Run& done, const Solution& solution,
-                      Statistics& statistics) {
+                      Statistics& statistics, Preview& preview) {
     const SolveSettings& settings = problem.settings();
     if (solution.steps == 0)
         return {};
@@ -374,9 +376,11 @@ GivenLight give_light(const Problem& problem, Run& done, const Solution& solutio
         if (has_pictures(settings) && !done.camera)
             done.camera = shown_camera_of(settings.view, lit, settings.verbosity);
         layouts = lightmap_layouts(problem);
-        given.gathered =
-            gather_light(settings, lit, solution, problem.loaded.points,
-                         done.camera.value_or(Camera()), layouts, problem.monitor, statistics);
+        if (done.camera)
+            preview.begin_gathering(lit, solution, *done.camera);
+        given.gathered = gather_light(settings, lit, solution, problem.loaded.points,
+                                      done.camera.value_or(Camera()), layouts, problem.monitor,
+                                      statistics, {}, &preview);
     }
     given.lamps = find_lamp_light(settings,
                                   {lit, *done.solver, solution, given.gathered,
@@ -425,7 +429,8 @@ int solve(Problem& problem, const Stopwatch& started) {
     statistics.seconds_bvh = problem.prepared.seconds;
     Divided divided = divide(problem, statistics);
     const std::optional<Reference> reference = take_reference(problem);
-    Run done = take_steps(problem, divided, reference, statistics.seconds_divide);
+    Preview preview(problem.settings(), problem.monitor.interrupted.own().wished);
+    Run done = take_steps(problem, divided, reference, statistics.seconds_divide, preview);
     // Where a signal or the time left no step, the light by which patches were divided is used.
     const Solution* solution = &done.solver->solution();
     if (solution->steps == 0 && divided.rough.steps > 0)
@@ -447,7 +452,7 @@ int solve(Problem& problem, const Stopwatch& started) {
                       problem.monitor, statistics);
         solution = &*of_target;
     }
-    const GivenLight given = give_light(problem, done, *solution, statistics);
+    const GivenLight given = give_light(problem, done, *solution, statistics, preview);
     return write(problem, done, *solution, statistics, given, reference, started);
 }
 

@@ -28,6 +28,15 @@ unsigned rays_for(double error) {
                std::clamp(std::round(4 + 2 * elementary::log2(.02 / error)), 2.0, 6.0));
 }
 
+/// Returns about how many rays at a point it takes in all, of which so many left this noise beside
+/// the error of what they read. They double from round to round.
+double rays_needed(const GatherErrors& errors, double asked, double most) {
+    const double read = errors.read.error, left = asked * asked - read * read;
+    const double excess = left > 0 ? errors.noise * errors.noise / left : 1;
+    return std::min(errors.rays * elementary::exp2(std::ceil(std::log2(std::max(excess, 2.0)))),
+                    most);
+}
+
 /// Makes the first the mean of both.
 void average(Image& light, const Image& other) {
     for (std::size_t k = 0; k < light.pixels.size(); ++k)
@@ -67,7 +76,9 @@ ReadError GatherRounds::learn_to(double error, std::span<const TargetPart> targe
     LearnOptions options =
         learn_options(settings_, share_of_read * error, seed, solution_, statistics_);
     options.seconds = seconds;
-    const Stage stage("learning the light", settings_.verbosity);
+    share_ = 0;
+    options.share = &share_;
+    const Stage stage("learning the light", settings_.verbosity, share_);
     const Stopwatch watch;
     const ReadError found = cache_.learn(target, options, workers_, monitor_.interrupted);
     statistics_.rays_learn += found.rays;
@@ -85,25 +96,36 @@ GatherErrors GatherRounds::gather(const std::string& what, const ReadError& read
     double asked = error_at(0, &TargetLevel::shown), level = 0;
     const auto judge_by = [&](std::uint64_t more) {
         judged = more;
-        const Stage stage("judging the " + what, settings_.verbosity);
+        share_ = 0;
+        const Stage stage("judging the " + what, settings_.verbosity, share_);
         const Stopwatch watch;
-        const PictureError own = judge.error_of(shown, usual_pixels * more, workers_);
-        statistics_.rays_learn += own.rays;
+        const std::optional<PictureError> own =
+            judge.error_of(shown, usual_pixels * more, workers_, [this](double share) {
+                share_ = share;
+                return !monitor_.interrupted;
+            });
         statistics_.seconds_learn += watch.seconds();
-        errors.noise = own.error;
-        errors.noise_uncertainty = own.uncertainty;
-        errors.noise_local = own.local;
-        level = own.level;
+        if (!own)
+            return;
+        statistics_.rays_learn += own->rays;
+        errors.noise = own->error;
+        errors.noise_uncertainty = own->uncertainty;
+        errors.noise_local = own->local;
+        level = own->level;
         asked = error_at(level, &TargetLevel::shown);
     };
     double before = std::numeric_limits<double>::infinity();
     bool alone = false;
     unsigned rays = settings_.gather.value_or(rays_for(asked)); // of the next round
+    double needed = rays;
     for (unsigned round = 0;; ++round) {
         try {
-            const Stage stage("gathering the " + what, settings_.verbosity);
+            const double done = round == 0 ? 0 : errors.rays, all = std::max(needed, done + rays);
+            share_ = done / all;
+            const Stage stage("gathering the " + what, settings_.verbosity, share_);
             const Stopwatch watch;
-            Image light = gather(rays, round, alone);
+            Image light = gather(
+                {rays, round, alone, [&](double share) { share_ = (done + share * rays) / all; }});
             errors.rays = rays;
             if (round % 2 == 1) {
                 average(light, shown);
@@ -123,6 +145,8 @@ GatherErrors GatherRounds::gather(const std::string& what, const ReadError& read
         for (std::uint64_t more = 4; more <= many && !whole_ && errors.is_in_doubt(asked);
              more *= 4)
             judge_by(more);
+        if (errors.is_unknown())
+            break;
         log_line(settings_.verbosity, Verbosity::verbose,
                  what + " by " + counted(errors.rays, "ray", "rays") +
                      " a point: its own error is " + percent(errors.noise) +
@@ -133,6 +157,7 @@ GatherErrors GatherRounds::gather(const std::string& what, const ReadError& read
         if (errors.noise > helps * before && std::exchange(alone, true))
             break;
         before = errors.noise;
+        needed = rays_needed(errors, asked, max_rays);
         rays = round % 2 == 0 ? errors.rays : 2 * errors.rays;
     }
     const double accuracy = settings_.error_accuracy;

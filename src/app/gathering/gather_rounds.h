@@ -10,8 +10,11 @@
 #include "radiosity/light/cached_light/light_cache.h"
 #include "radiosity/paper/solving/solver.h"
 
+#include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,12 +37,14 @@ struct WholeLight {
 
 /// The errors of what is given out.
 struct GatherErrors {
-    ReadError read;               ///< of the light that gathers read
-    double noise = 0;             ///< of their own, relative [-]
-    double noise_uncertainty = 0; ///< one sigma
-    double noise_local = 0;       ///< what 95 of 100 places are within, relative to their light [-]
-    unsigned rays = 0;            ///< at a point, of the last gather
+    ReadError read;                                          ///< of the light that gathers read
+    double noise = std::numeric_limits<double>::quiet_NaN(); ///< of their own, relative [-]
+    double noise_uncertainty = 0;                            ///< one sigma
+    double noise_local = 0; ///< what 95 of 100 places are within, relative to their light [-]
+    unsigned rays = 0;      ///< at a point, of the last gather
 
+    /// Returns whether a signal came before the light was judged.
+    [[nodiscard]] bool is_unknown() const { return std::isnan(noise); }
     [[nodiscard]] double whole() const { return elementary::hypot(read.error, noise); }
     [[nodiscard]] double bound() const {
         return elementary::hypot(read.bound, noise + noise_uncertainty);
@@ -67,15 +72,23 @@ class GatherRounds {
     [[nodiscard]] ReadError learn(std::span<const TargetPart> target, std::uint64_t seed,
                                   std::optional<double> seconds = {});
 
-    /// Returns the light of a round of rays of its own. `alone`: each place at which light changes
-    /// fast gathers by itself.
-    using Gather = std::function<Image(unsigned rays_of_point, unsigned round, bool alone)>;
+    /// A round of rays of its own.
+    struct Round {
+        unsigned rays;   ///< at a point
+        unsigned number; ///< from 0
+        bool alone;      ///< each place at which light changes fast gathers by itself
+        std::function<void(double share)> tell; ///< to be called with the share that is done
+    };
+    /// Returns the light of a round. Throws Interrupted where a signal came before all of it was
+    /// gathered.
+    using Gather = std::function<Image(const Round& round)>;
     /// Gathers by so many rays at a point, and has what was given out judged. Where the error is
     /// too large, it is gathered by as many rays once more, and the mean of both is given out; then
     /// in the same way with twice as many rays as there were. Once that does not help, it is
     /// gathered alone: then most of the error lies between the points of the grid, as in small
     /// pictures. Where the error itself is asked for, more pixels are judged. A part of the light
-    /// need not be surely as exact as it may be, as its error is told. The target ends with it.
+    /// need not be surely as exact as it may be, as its error is told. The target ends with it. A
+    /// signal leaves the rounds before it; in the first one it throws Interrupted.
     GatherErrors gather(const std::string& what, const ReadError& read, Image& shown,
                         const Gather& gather, PictureJudge judge);
 
@@ -99,7 +112,8 @@ class GatherRounds {
     Statistics& statistics_;
     const std::optional<WholeLight>& whole_;
     Workers workers_;
-    double error_; ///< that was asked for
+    double error_;                 ///< that was asked for
+    std::atomic<double> share_{0}; ///< of the present work that is done
     std::vector<TargetLevel> levels_;
 };
 

@@ -23,11 +23,14 @@
 
 namespace hemilux {
 
+class Preview;
+
 struct GatheredLight {
     std::unique_ptr<LightCache> cache; ///< empty: nothing is gathered
     std::vector<Sensor> sensors;       ///< by point of --points
     LightAtPoints points;
-    std::optional<Image> picture;    ///< empty: none was asked for, or a signal ended it
+    /// Empty: none was asked for, or a signal left no row of it.
+    std::optional<Image> picture;
     std::vector<Image> lightmaps;    ///< of the layouts; empty: none was asked for
     std::vector<TargetLevel> levels; ///< of points, lightmaps and the picture, as far as asked for
     /// The relative error, the largest of what is given out [-]; NaN where it is not known.
@@ -49,12 +52,12 @@ struct NamedLayout {
 /// Learns the light, and gathers that of points. `camera` is that of pictures; `lightmaps` say
 /// where surfaces lie in each. Everything that is referred to must outlive the result. Enters the
 /// error into the statistics where only gathered light is given out. With `whole` the light is a
-/// part of that, and is as exact as that needs it.
-[[nodiscard]] GatheredLight gather_light(const SolveSettings& settings, const LitScene& scene,
-                                         const Solution& solution,
-                                         std::span<const NamedPoint> points, const Camera& camera,
-                                         std::span<const NamedLayout> lightmaps, Monitor& monitor,
-                                         Statistics& statistics,
-                                         const std::optional<WholeLight>& whole = {});
+/// part of that, and is as exact as that needs it. `preview` is shown the picture as it grows. A
+/// signal leaves what is gathered by then, and the light of the patches elsewhere.
+[[nodiscard]] GatheredLight
+gather_light(const SolveSettings& settings, const LitScene& scene, const Solution& solution,
+             std::span<const NamedPoint> points, const Camera& camera,
+             std::span<const NamedLayout> lightmaps, Monitor& monitor, Statistics& statistics,
+             const std::optional<WholeLight>& whole = {}, Preview* preview = nullptr);
 
 } // namespace hemilux

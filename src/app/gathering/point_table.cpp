@@ -22,8 +22,6 @@ void check_distances(const std::string& path, std::span<const NamedPoint> points
 void write_points(const std::string& path, const Mesh& mesh, std::span<const NamedPoint> points,
                   const GatheredLight& gathered, const Workers& workers,
                   const csv::MoreColumns& more) {
-    if (gathered.points.lights.empty() && gathered.points.end == PointsEnd::gave_up)
-        throw Interrupted();
     if (gathered.sensors.size() < points.size()) // nothing was gathered
         throw Interrupted();
     write_points_table(path, mesh, points, gathered.sensors, gathered.points.lights, workers, more);

@@ -12,8 +12,8 @@ namespace hemilux {
 /// tell rays to it apart.
 void check_distances(const std::string& path, std::span<const NamedPoint> points, const Mesh& mesh);
 
-/// Writes the table of what was gathered; rows that a limit or a signal left have no light. Throws
-/// OutputError, and Interrupted where a signal left nothing.
+/// Writes the table of what was gathered. Throws OutputError, and Interrupted where a signal left
+/// no light of patches either.
 void write_points(const std::string& path, const Mesh& mesh, std::span<const NamedPoint> points,
                   const GatheredLight& gathered, const Workers& workers,
                   const csv::MoreColumns& more = {});

@@ -33,7 +33,6 @@ void write_error_map(const std::string& path, const ViewSettings& view, const Re
     const Tracer& tracer = results.tracer;
     const SolveOptions& options = results.options;
     StopFlag& interrupted = results.monitor.interrupted;
-    const PictureTime time(interrupted.own().wished);
     const Camera camera = camera_of(view, results.lit());
     std::vector<double> errors =
         patch_error_levels(mesh, tracer, results.solution, hash_words({options.seed, 3}),
@@ -44,9 +43,9 @@ void write_error_map(const std::string& path, const ViewSettings& view, const Re
     for (double& error : errors)
         error *= 100;
     write_png(path,
-              density_picture(mesh, tracer, errors,
-                              "error of patches, % of the mean light (root mean square)", camera,
-                              picture_options(view.size, options.threads, time)),
+              density_picture(
+                  mesh, tracer, errors, "error of patches, % of the mean light (root mean square)",
+                  camera, picture_options(view.size, options.threads, interrupted.own().wished)),
               1);
 }
 

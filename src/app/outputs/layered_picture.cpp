@@ -76,14 +76,14 @@ void add_lamp_channels(std::vector<ExrChannel>& channels, const LampLayers& lamp
 std::vector<ExrChannel> picture_layers(const Results& results, const Image& light,
                                        std::span<const Image> lamps, const Camera& camera) {
     const Solution& solution = results.solution;
-    const PictureTime time(results.monitor.interrupted.own().wished);
-    RenderOptions options =
-        picture_options({light.width, light.height}, results.options.threads, time);
-    options.samples = 1;
-    options.smooth = false;
+    RenderOptions options{.width = light.width,
+                          .height = light.height,
+                          .samples = 1,
+                          .smooth = false,
+                          .threads = results.options.threads};
+    if (results.monitor.interrupted)
+        options.square = square_for_speed(light.width, light.height);
     const std::vector<std::uint32_t> patches = patches_in(results, camera, options);
-    if (time.is_over())
-        throw Interrupted();
     std::vector<ExrChannel> channels;
     add_exr_channels(channels, "", light);
     add_exr_channels(channels, "irradiance", picture_of(light, patches, [&](std::uint32_t i) {

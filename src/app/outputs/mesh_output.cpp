@@ -3,6 +3,7 @@
 #include "app/gathering/lit_file_output.h"
 #include "app/outputs/layered_picture.h"
 #include "app/rendering/view.h"
+#include "app/running/signals.h"
 #include "app/terminal/log.h"
 #include "io/lightmaps/lightmap.h"
 #include "io/meshes/baked_light.h"
@@ -24,12 +25,11 @@ std::vector<Vec3> vertex_light(const SolveSettings& settings, const Results& res
     if (settings.bake != Bake::indirect)
         return baked_light(mesh, classes, solution, settings.bake);
     const unsigned rays = SolveSettings::bake_rays_per_gather_ray * settings.rays_of_gather();
-    const PictureTime time(results.monitor.interrupted.own().wished);
     return smooth(mesh, classes,
-                  indirect_irradiance(mesh, results.tracer, solution.radiosity, rays,
-                                      hash_words({results.options.seed, 4}),
-                                      Workers(results.options.threads),
-                                      [&] { return time.is_over(); }));
+                  indirect_irradiance(
+                      mesh, results.tracer, solution.radiosity, rays,
+                      hash_words({results.options.seed, 4}), Workers(results.options.threads),
+                      [&] { return is_asked_to_end(results.monitor.interrupted.own().wished); }));
 }
 
 void write_lightmap(const SolveSettings& settings, const std::string& path, const Image& light,

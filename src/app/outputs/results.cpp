@@ -48,14 +48,11 @@ class Picture {
   public:
     /// A picture that does not gather interpolates.
     Picture(const ViewSettings& view, bool gathers, const Results& results, SharedClasses& classes)
-        : view_(view), gathers_(gathers), results_(results), classes_(classes),
-          time_(results.monitor.interrupted.own().wished) {}
+        : view_(view), gathers_(gathers), results_(results), classes_(classes) {}
 
     void write(const Output& output, const Provenance& from, Verbosity verbosity) {
         if (!image_)
             image_ = render(verbosity);
-        if (time_.is_over())
-            throw Interrupted();
         if (output.kind == OutputKind::exr)
             write_exr(output.path, image_->width, image_->height,
                       picture_layers(results_, *image_, of_lamps(), camera_), from);
@@ -69,19 +66,19 @@ class Picture {
         camera_ = shown_camera_of(view_, scene, verbosity);
         if (gathers_ && !results_.gathered.picture)
             log_line(verbosity, Verbosity::quiet,
-                     "interrupted; pictures show the light of the patches");
+                     "interrupted; pictures show the light of the patches" +
+                         squares_text(view_.size));
         Image image = results_.gathered.picture && gathers_
                           ? *results_.gathered.picture
                           : interpolated(scene, results_.solution);
-        choose_exposure(view_, image, scene, camera_);
+        choose_exposure(view_, image, scene, camera_,
+                        pixels_in_time(results_.monitor.interrupted.own().wished));
         return image;
     }
 
-    /// After a signal there is little time: one place stands for a pixel.
     [[nodiscard]] Image interpolated(const LitScene& scene, const Solution& solution) {
-        RenderOptions options = picture_options(view_.size, scene.threads, time_);
-        if (results_.monitor.interrupted)
-            options.samples = 1;
+        RenderOptions options =
+            picture_options(view_.size, scene.threads, results_.monitor.interrupted.own().wished);
         options.classes = &classes_.get();
         options.slope = solution.slope;
         return render_view(scene, camera_, options);
@@ -105,7 +102,6 @@ class Picture {
     bool gathers_;
     const Results& results_;
     SharedClasses& classes_;
-    PictureTime time_;
     std::optional<Image> image_;
     Camera camera_; ///< of the image
 };

@@ -31,7 +31,6 @@ StepPictures::StepPictures(const SolveSettings& settings, const Mesh& mesh, cons
 }
 
 void StepPictures::write(std::span<const Vec3> radiosity, std::uint32_t step) {
-    const PictureTime time(interrupted_);
     const LitScene scene{mesh_, tracer_, radiosity, threads_};
     std::optional<Image> image;
     for (const Output& output : pictures_) {
@@ -42,9 +41,9 @@ void StepPictures::write(std::span<const Vec3> radiosity, std::uint32_t step) {
             if (!view_.camera)
                 view_.camera = camera_of(view_, scene);
             if (!image)
-                image =
-                    render_view(scene, *view_.camera, picture_options(view_.size, threads_, time));
-            choose_exposure(view_, *image, scene, *view_.camera);
+                image = render_view(scene, *view_.camera,
+                                    picture_options(view_.size, threads_, interrupted_));
+            choose_exposure(view_, *image, scene, *view_.camera, pixels_in_time(interrupted_));
             write_picture({path, output.kind}, *image, view_, from_);
         });
     }

@@ -1,5 +1,6 @@
 #include "app/rendering/view.h"
 
+#include "app/running/signals.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/text.h"
 #include "geometry/elementary.h"
@@ -79,20 +80,34 @@ Camera camera_of(const ViewSettings& view, const LitScene& scene) {
                                                      scene.threads));
 }
 
-bool PictureTime::is_over() const {
-    constexpr std::chrono::milliseconds moment(500);
-    return interrupted_ && std::chrono::steady_clock::now() - start_ > moment;
-}
-
-RenderOptions picture_options(PixelSize size, unsigned threads, const PictureTime& time) {
-    return {.width = size.width, .height = size.height, .threads = threads, .give_up = [&time] {
-                return time.is_over();
-            }};
+RenderOptions picture_options(PixelSize size, unsigned threads,
+                              const std::atomic<bool>& interrupted) {
+    return {.width = size.width,
+            .height = size.height,
+            .threads = threads,
+            .give_up = [&interrupted] { return is_asked_to_end(interrupted); }};
 }
 
 Image render_view(const LitScene& scene, const Camera& camera, RenderOptions options) {
     options.textures = true;
-    return render(scene.mesh, scene.tracer, scene.radiosity, camera, options);
+    try {
+        return render(scene.mesh, scene.tracer, scene.radiosity, camera, options);
+    } catch (const Interrupted&) {
+        options.give_up = {};
+        options.samples = 1;
+        options.square = square_for_speed(options.width, options.height);
+        return render(scene.mesh, scene.tracer, scene.radiosity, camera, options);
+    }
+}
+
+std::string squares_text(PixelSize size) {
+    const int square = square_for_speed(size.width, size.height);
+    return square > 1 ? formatted(", in squares of %d pixels", square) : "";
+}
+
+RowsOfPicture render_gathered(const LitScene& scene, const Camera& camera, RenderOptions options) {
+    options.textures = true;
+    return render_rows(scene.mesh, scene.tracer, scene.radiosity, camera, options);
 }
 
 void write_picture(const Output& output, const Image& image, const ViewSettings& view,
@@ -107,10 +122,16 @@ void write_picture(const Output& output, const Image& image, const ViewSettings&
     write_png(output.path, image, display_of(view), from);
 }
 
+std::optional<double> pixels_in_time(const std::atomic<bool>& interrupted) {
+    return interrupted ? std::optional(pixels_for_speed) : std::nullopt;
+}
+
 void choose_exposure(ViewSettings& view, const Image& picture, const LitScene& scene,
-                     const Camera& camera) {
+                     const Camera& camera, std::optional<double> pixels) {
     if (!view.exposure)
-        view.exposure = exposure_of(picture, scene.mesh, scene.tracer, camera, scene.threads);
+        view.exposure =
+            exposure_of(picture, scene.mesh, scene.tracer, camera, scene.threads,
+                        pixels ? square_for_speed(picture.width, picture.height, *pixels) : 1);
 }
 
 Display display_of(const ViewSettings& view) {

@@ -7,7 +7,7 @@
 #include "io/results/smooth.h"
 
 #include <atomic>
-#include <chrono>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -23,18 +23,6 @@ void check_camera(const ViewSettings& view, const Mesh& mesh, const std::string&
 /// Returns the camera that this option gives, so that it may be copied.
 [[nodiscard]] Camera as_printed(Camera camera);
 
-/// The time that pictures may still take once the user has asked the program to end: until two
-/// seconds after this was made, so that small ones are written. It refers to the argument.
-class PictureTime {
-  public:
-    explicit PictureTime(const std::atomic<bool>& interrupted) : interrupted_(interrupted) {}
-    [[nodiscard]] bool is_over() const;
-
-  private:
-    const std::atomic<bool>& interrupted_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 /// A scene with its light, and the number of threads that look at it; it refers to what lives in
 /// the caller.
 struct LitScene {
@@ -47,22 +35,35 @@ struct LitScene {
 /// Returns the camera given, or one chosen for the scene.
 [[nodiscard]] Camera camera_of(const ViewSettings& view, const LitScene& scene);
 
-/// Returns the options of a picture in the size asked for, which ends with Interrupted when the
-/// time is over. They refer to `time`.
+/// Returns the options of a picture in the size asked for, which ends with Interrupted once the
+/// flag is set. They refer to it.
 [[nodiscard]] RenderOptions picture_options(PixelSize size, unsigned threads,
-                                            const PictureTime& time);
+                                            const std::atomic<bool>& interrupted);
 
-/// Renders the scene as the camera sees it, with the textures of its surfaces.
+/// Renders the light of the patches as the camera sees it, with the textures of surfaces. Where
+/// `give_up` ends it, it is rendered as fast as can be: large pictures by squares.
 [[nodiscard]] Image render_view(const LitScene& scene, const Camera& camera, RenderOptions options);
+
+/// Returns what a log adds on pictures of this size that are rendered so fast: empty for small
+/// ones.
+[[nodiscard]] std::string squares_text(PixelSize size);
+
+/// Renders light that is gathered, up to the row at which `give_up` ends it.
+[[nodiscard]] RowsOfPicture render_gathered(const LitScene& scene, const Camera& camera,
+                                            RenderOptions options);
 
 /// Writes a .png file, by the exposure of the view, or the light alone in an .hdr or .exr file.
 /// Throws OutputError.
 void write_picture(const Output& output, const Image& image, const ViewSettings& view,
                    const Provenance& from);
 
-/// Chooses the exposure for what render_view() made, where none was given.
+/// Returns how many pixels are enough for the exposure: all, or some after a signal.
+[[nodiscard]] std::optional<double> pixels_in_time(const std::atomic<bool>& interrupted);
+
+/// Chooses the exposure for what render_view() made, where none was given: by all pixels, or faster
+/// by about so many.
 void choose_exposure(ViewSettings& view, const Image& picture, const LitScene& scene,
-                     const Camera& camera);
+                     const Camera& camera, std::optional<double> pixels = {});
 /// Returns how pictures are shown, once their exposure is known.
 [[nodiscard]] Display display_of(const ViewSettings& view);
 /// Returns the same for the light of a mesh's vertices, by class of corners.

@@ -3,10 +3,12 @@
 #include "app/settings/exit_code.h"
 #include "io/files/atomic_file.h"
 #include "io/files/temporary_file.h"
+#include "io/pictures/image.h"
 
 #include <array>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <fcntl.h>
 #include <iostream>
 #include <poll.h>
@@ -72,11 +74,21 @@ InterruptGuard::~InterruptGuard() {
             std::signal(signal, SIG_DFL);
     interrupted = nullptr;
     end_waits_on(nullptr);
+    compress_little_on(nullptr);
 }
 
 void InterruptGuard::watch(std::atomic<bool>& flag) {
     end_waits_on(&flag);
+    compress_little_on(&flag);
     interrupted = &flag;
+}
+
+bool is_asked_to_end(const std::atomic<bool>& flag) {
+    static const char* const number = std::getenv("HEMILUX_SIGNAL_AT");
+    static std::atomic<long> left{number ? std::atol(number) : 0};
+    if (left > 0 && --left == 0)
+        raise(SIGINT);
+    return flag;
 }
 
 int exit_code_of_signal() { return exit_code; }

@@ -2,7 +2,8 @@
 // Handles the signals that ask the program to end: Ctrl-C, SIGTERM, SIGHUP of a terminal that is
 // closed (unless it is ignored, as by nohup), SIGXCPU of a limit of processor time. The first one
 // asks the solver to stop, so that what was computed is still written; a second SIGINT or SIGTERM
-// ends the program at once, and takes away files that are half-written.
+// ends the program at once, and takes away files that are half-written. Writing after a signal has
+// no limit of time: it takes longer for large outputs, and a second signal is at hand.
 
 #include <atomic>
 
@@ -21,6 +22,11 @@ class InterruptGuard {
     /// something to save: who waits for that word may send a signal right after it.
     void watch(std::atomic<bool>& flag);
 };
+
+/// Returns the flag. What works for long asks by this, often enough that it can stop within a
+/// fraction of a second. With HEMILUX_SIGNAL_AT=N in the environment, this process is sent a SIGINT
+/// by the Nth question: so a test interrupts the same work each time.
+[[nodiscard]] bool is_asked_to_end(const std::atomic<bool>& flag);
 
 /// Returns how the program ends after the first signal: 128 and its number, such as 130 or 143.
 [[nodiscard]] int exit_code_of_signal();

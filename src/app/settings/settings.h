@@ -135,6 +135,7 @@ struct SolveSettings {
     /// These are paths; empty: not asked for.
     std::string statistics, steps_log, error_map, report;
     bool every_step = false;         ///< pictures also after every step
+    bool preview = false;            ///< Preview, also where no terminal shows the run
     std::string reference;           ///< path of a patch table; empty: none
     std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`
     CheckpointSettings checkpoint;

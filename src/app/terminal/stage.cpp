@@ -28,6 +28,13 @@ Stage::Stage(std::string name, Verbosity verbosity)
       line_(verbosity != Verbosity::quiet && stderr_is_terminal(),
             [this](std::size_t columns) { return stage_line(name_, watch_.seconds(), columns); }) {}
 
+Stage::Stage(std::string name, Verbosity verbosity, const std::atomic<double>& share)
+    : name_(std::move(name)),
+      line_(verbosity != Verbosity::quiet && stderr_is_terminal(), [this,
+                                                                    &share](std::size_t columns) {
+          return stage_line(name_, std::clamp(share.load(), 0.0, 1.0), watch_.seconds(), columns);
+      }) {}
+
 Stage::Stage(const Monitor& monitor, Verbosity verbosity)
     : name_(monitor.phase.load()),
       line_(verbosity != Verbosity::quiet && stderr_is_terminal(),

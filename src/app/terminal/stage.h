@@ -7,6 +7,7 @@
 #include "app/terminal/stopwatch.h"
 #include "radiosity/paper/solving/solver.h"
 
+#include <atomic>
 #include <string>
 
 namespace hemilux {
@@ -22,6 +23,8 @@ namespace hemilux {
 class Stage {
   public:
     Stage(std::string name, Verbosity verbosity);
+    /// Shows how much of it is done besides, and how long the rest takes. The share outlives this.
+    Stage(std::string name, Verbosity verbosity, const std::atomic<double>& share);
     /// Shows the monitor's phases, one after the other, each with its share and its time.
     Stage(const Monitor& monitor, Verbosity verbosity);
 

@@ -1,5 +1,6 @@
 #include "io/lightmaps/lightmap_gather.h"
 
+#include "io/files/error.h"
 #include "io/rendering/direct_window.h"
 #include "io/rendering/picture_gather.h"
 #include "io/rendering/row_windows.h"
@@ -73,13 +74,14 @@ struct TexelLight {
 class TexelGather {
   public:
     TexelGather(const Tracer& tracer, const TexelMap& texels, const std::vector<bool>& covered,
-                const PictureGather& gather)
+                PictureGather& gather)
         : tracer_(tracer), texels_(texels), covered_(covered), gather_(gather),
           rows_(static_cast<std::size_t>(texels.size())) {}
 
-    /// Calls add(texel, irradiance) for each texel that is not covered, in several threads.
+    /// Calls add(texel, irradiance) for each texel that is not covered, in several threads. Returns
+    /// the number of rows, from the first, that were finished before check() threw Interrupted.
     template <class Add>
-    void run(const std::function<void()>& check, const Workers& workers, const Add& add);
+    [[nodiscard]] int run(const LightmapOptions& options, const Workers& workers, const Add& add);
 
   private:
     using Row = std::vector<TexelLight>;
@@ -90,36 +92,43 @@ class TexelGather {
     const Tracer& tracer_;
     const TexelMap& texels_;
     const std::vector<bool>& covered_;
-    const PictureGather& gather_;
+    PictureGather& gather_;
     std::vector<Row> rows_; ///< empty before they are gathered, and once no window reaches them
 };
 
 template <class Add>
-void TexelGather::run(const std::function<void()>& check, const Workers& workers, const Add& add) {
+int TexelGather::run(const LightmapOptions& options, const Workers& workers, const Add& add) {
     constexpr std::size_t rows_at_a_time = 4;
+    int finished = 0;
     const auto in_threads = [&](int first, int end, const auto& work) {
         workers.for_chunks(static_cast<std::size_t>(end - first), rows_at_a_time,
                            [&](std::size_t begin, std::size_t past) {
-                               check();
+                               options.check();
                                work(first + static_cast<int>(begin),
                                     first + static_cast<int>(past));
                            });
     };
-    for_row_windows(
-        texels_.size(), 8 * static_cast<int>(rows_at_a_time * workers.threads()),
-        DirectWindow::reach,
-        [&](int from, int to) {
-            in_threads(from, to, [&](int first, int end) { gather_rows(first, end); });
-        },
-        [&](int from, int to) {
-            in_threads(from, to, [&](int first, int end) {
-                for (int y = first; y < end; ++y)
-                    for (int x = 0; x < texels_.size(); ++x)
-                        if (row(y)[static_cast<std::size_t>(x)].chart != none)
-                            add(texels_.index(x, y), irradiance(x, y));
-            });
-        },
-        [&](int y) { row(y) = {}; });
+    const auto gather = [&](int from, int to) {
+        gather_.prepare_rows(to, workers);
+        in_threads(from, to, [&](int first, int end) { gather_rows(first, end); });
+    };
+    const auto finish = [&](int from, int to) {
+        in_threads(from, to, [&](int first, int end) {
+            for (int y = first; y < end; ++y)
+                for (int x = 0; x < texels_.size(); ++x)
+                    if (row(y)[static_cast<std::size_t>(x)].chart != none)
+                        add(texels_.index(x, y), irradiance(x, y));
+        });
+        finished = to;
+        if (options.rows_done)
+            options.rows_done(to);
+    };
+    try {
+        for_row_windows(texels_.size(), 8 * static_cast<int>(rows_at_a_time * workers.threads()),
+                        DirectWindow::reach, gather, finish, [&](int y) { row(y) = {}; });
+    } catch (const Interrupted&) { // the rows before are finished
+    }
+    return finished;
 }
 
 void TexelGather::gather_rows(int first, int end) {
@@ -194,43 +203,46 @@ Vec3 radiosity_of(const Mesh& mesh, const SurfacePoint& at, const Vec3& irradian
 GatheredLightmap gather_lightmap(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
                                  const TexelMap& texels, const std::vector<bool>& covered,
                                  const LightmapOptions& options, const Workers& workers) {
-    const PictureGather gather(mesh, tracer, light, grid_of(texels, covered, workers),
-                               {.rays = options.rays,
-                                .shadow_rays = 2 * options.rays, // edges are few and sharp
-                                .samples = 1,
-                                .round = options.round,
-                                .coarse_rays = options.rays,
-                                .only_reflected = options.bake == Bake::indirect,
-                                .check = options.check},
-                               workers);
-    GatheredLightmap lightmap{Image(texels.size(), texels.size()),
-                              std::vector<bool>(texels.count())};
-    for (std::size_t k = 0; k < lightmap.known.size(); ++k)
+    PictureGather gather(mesh, tracer, light, grid_of(texels, covered, workers),
+                         {.rays = options.rays,
+                          .shadow_rays = 2 * options.rays, // edges are few and sharp
+                          .samples = 1,
+                          .round = options.round,
+                          .coarse_rays = options.rays,
+                          .only_reflected = options.bake == Bake::indirect,
+                          .check = options.check});
+    GatheredLightmap lightmap(texels);
+    lightmap.rows =
+        TexelGather(tracer, texels, covered, gather)
+            .run(options, workers, [&](std::size_t texel, const glm::vec3& irradiance) {
+                lightmap.image.pixels[texel] =
+                    options.bake == Bake::radiosity
+                        ? glm::vec3(radiosity_of(mesh, texels.point(texel), Vec3(irradiance)))
+                        : irradiance;
+            });
+    for (std::size_t k = 0; k < texels.index(0, lightmap.rows); ++k)
         lightmap.known[k] = texels.shows(k) && !covered[k];
-    TexelGather(tracer, texels, covered, gather)
-        .run(options.check, workers, [&](std::size_t texel, const glm::vec3& irradiance) {
-            lightmap.image.pixels[texel] =
-                options.bake == Bake::radiosity
-                    ? glm::vec3(radiosity_of(mesh, texels.point(texel), Vec3(irradiance)))
-                    : irradiance;
-        });
     return lightmap;
 }
 
-GatheredLightmap lightmap_of_patches(const Mesh& mesh, const SurfaceLight& light,
-                                     const TexelMap& texels, Bake bake) {
-    GatheredLightmap lightmap{Image(texels.size(), texels.size()),
-                              std::vector<bool>(texels.count())};
-    for (std::size_t k = 0; k < texels.count(); ++k) {
-        if (!texels.shows(k))
-            continue;
-        const SurfacePoint at = texels.point(k);
-        const Vec3 arriving = light.irradiance(at.patch, at.position).value;
-        lightmap.known[k] = true;
-        lightmap.image.pixels[k] =
-            glm::vec3(bake == Bake::radiosity ? radiosity_of(mesh, at, arriving) : arriving);
-    }
-    return lightmap;
+GatheredLightmap::GatheredLightmap(const TexelMap& texels)
+    : image(texels.size(), texels.size()), known(texels.count()) {}
+
+void complete_by_patches(GatheredLightmap& lightmap, const Mesh& mesh, const SurfaceLight& light,
+                         const TexelMap& texels, Bake bake, const Workers& workers) {
+    const std::size_t first = texels.index(0, lightmap.rows);
+    workers.for_chunks(texels.count() - first, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = first + begin; k < first + end; ++k) {
+            if (!texels.shows(k))
+                continue;
+            const SurfacePoint at = texels.point(k);
+            const Vec3 arriving = light.irradiance(at.patch, at.position).value;
+            lightmap.image.pixels[k] =
+                glm::vec3(bake == Bake::radiosity ? radiosity_of(mesh, at, arriving) : arriving);
+        }
+    });
+    for (std::size_t k = first; k < texels.count(); ++k)
+        lightmap.known[k] = texels.shows(k);
 }
 
 /// Goes outwards ring by ring: each texel takes the mean of its known neighbours.

@@ -19,29 +19,35 @@ struct LightmapOptions {
     Bake bake = Bake::radiosity;
     unsigned rays = 16;                  ///< PictureGatherOptions::rays
     unsigned round = 0;                  ///< PictureGatherOptions::round
-    std::function<void()> check = [] {}; ///< may throw to end it; is called by several threads
+    std::function<void()> check = [] {}; ///< throws Interrupted to end it; for several threads
+    std::function<void(int rows)> rows_done = {}; ///< is called with the rows that are finished
 };
 
-/// The light of texels, and which of them were gathered. All others are black: those that show
-/// nothing, and those that are covered.
+/// The light of texels, and which of them are known. All others are black: those that show nothing,
+/// those that are covered, and those of rows that are not finished.
 struct GatheredLightmap {
     Image image; ///< [W/m2]
     std::vector<bool> known;
+    int rows = 0; ///< finished, from the first
+
+    GatheredLightmap() = default;
+    /// Makes a lightmap of which nothing is known.
+    explicit GatheredLightmap(const TexelMap& texels);
 };
 
 /// Returns what a point (with its patch) sends where this arrives [W/m2].
 [[nodiscard]] Vec3 radiosity_of(const Mesh& mesh, const SurfacePoint& at, const Vec3& irradiance);
 
-/// Gathers the light of the texels that are not covered.
+/// Gathers the light of the texels that are not covered, row after row until check() ends it.
 [[nodiscard]] GatheredLightmap gather_lightmap(const Mesh& mesh, const Tracer& tracer,
                                                const SurfaceLight& light, const TexelMap& texels,
                                                const std::vector<bool>& covered,
                                                const LightmapOptions& options,
                                                const Workers& workers);
 
-/// Takes the light that patches send or receive in place of that.
-[[nodiscard]] GatheredLightmap lightmap_of_patches(const Mesh& mesh, const SurfaceLight& light,
-                                                   const TexelMap& texels, Bake bake);
+/// Gives the rows that are not finished the light that patches send or receive.
+void complete_by_patches(GatheredLightmap& lightmap, const Mesh& mesh, const SurfaceLight& light,
+                         const TexelMap& texels, Bake bake, const Workers& workers);
 
 /// Fills unknown texels from the nearest known ones: covered ones of a chart from the same chart,
 /// and up to `margin` texels around charts.

@@ -132,8 +132,7 @@ Occlusion gather_occlusion(const Mesh& mesh, const Tracer& tracer, const TexelMa
         if (texels.shows(k) && !covered[k])
             objects[mesh.scene().facets[texels.triangle(k).facet].group].texels.push_back(k);
     std::vector<TexelRays> rays(texels.count());
-    Occlusion found{
-        {Image(texels.size(), texels.size()), std::vector<bool>(texels.count())}, {}, 0};
+    Occlusion found{GatheredLightmap(texels), {}, 0};
     const auto trace_up_to = [&](std::uint32_t end, const Object& object) {
         std::atomic<std::uint64_t> traced{0};
         workers.for_chunks(

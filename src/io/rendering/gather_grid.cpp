@@ -56,15 +56,14 @@ double GatherGrid::spacing(int x, int y) const {
     return largest;
 }
 
-void GatherGrid::ask_neighbours(const Workers& workers) {
-    struct Asked {
-        float nearness = 0;
-        std::uint8_t shadow = 0;
-    };
-    std::vector<Asked> asked(points_.size());
-    for_each_point(workers, [&](const GridPoint& here, int x, int y) {
+void GatherGrid::ask_neighbours(int first, int end, const Workers& workers) {
+    const auto columns = static_cast<std::size_t>(columns_);
+    std::vector<Asked> asked = std::move(asked_); // of row first - 1, then of the others
+    const std::size_t before = asked.size(), begin = static_cast<std::size_t>(first) * columns;
+    asked.resize(before + static_cast<std::size_t>(end - first) * columns);
+    for_each_point(first, end, workers, [&](const GridPoint& here, int x, int y) {
         float sum = 0, count = 0;
-        Asked& of = asked[number_of(here)];
+        Asked& of = asked[before + number_of(here) - begin];
         for_each_around(here, x, y, 1, [&](const GridPoint& there) {
             sum += there.nearness;
             ++count;
@@ -72,10 +71,13 @@ void GatherGrid::ask_neighbours(const Workers& workers) {
         });
         of.nearness = sum / count;
     });
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-        points_[k].nearness = asked[k].nearness;
-        points_[k].shadow = asked[k].shadow;
+    const std::size_t left = end < rows_ ? columns : 0;
+    for (std::size_t k = 0; k + left < asked.size(); ++k) {
+        GridPoint& point = points_[begin - before + k];
+        point.nearness = asked[k].nearness;
+        point.shadow = asked[k].shadow;
     }
+    asked_.assign(asked.end() - static_cast<std::ptrdiff_t>(left), asked.end());
 }
 
 } // namespace hemilux

@@ -71,6 +71,7 @@ class GatherGrid {
         : columns_(columns), rows_(rows), points_(std::move(points)) {}
 
     [[nodiscard]] int columns() const { return columns_; }
+    [[nodiscard]] int rows() const { return rows_; }
     /// Returns the number of all points, also those without a surface. They are numbered row after
     /// row.
     [[nodiscard]] std::size_t size() const { return points_.size(); }
@@ -97,30 +98,41 @@ class GatherGrid {
                     there && here.is_of_surface(*there))
                     visit(*there);
     }
-    /// Calls visit(point, x, y) for each point with a surface, in several threads. Calls check(),
-    /// which may throw to end it, before some rows at a time.
+    /// Calls visit(point, x, y) for each point with a surface of the rows from `first` up to `end`,
+    /// in several threads. Calls check(), which may throw to end it, before some rows at a time.
     template <class Visit, class Check = void (*)()>
     void for_each_point(
-        const Workers& workers, const Visit& visit, const Check& check = [] {}) const {
-        workers.for_chunks(static_cast<std::size_t>(rows_), 8, [&](std::size_t y, std::size_t end) {
-            check();
-            for (; y < end; ++y)
-                for (int x = 0; x < columns_; ++x)
-                    if (const GridPoint* const here = point(x, static_cast<int>(y)))
-                        visit(*here, x, static_cast<int>(y));
-        });
+        int first, int end, const Workers& workers, const Visit& visit,
+        const Check& check = [] {}) const {
+        workers.for_chunks(static_cast<std::size_t>(end - first), 4,
+                           [&](std::size_t begin, std::size_t past) {
+                               check();
+                               for (int y = first + static_cast<int>(begin);
+                                    y < first + static_cast<int>(past); ++y)
+                                   for (int x = 0; x < columns_; ++x)
+                                       if (const GridPoint* const here = point(x, y))
+                                           visit(*here, x, y);
+                           });
     }
 
     /// Returns the distance from a point with a surface to the farthest of its four neighbours on
     /// it, in local units; 0 without any.
     [[nodiscard]] double spacing(int x, int y) const;
     /// Joins what each point knows of nearness and shadows with the points beside it: a few rays
-    /// estimate nearness badly, and may miss a shadow.
-    void ask_neighbours(const Workers& workers);
+    /// estimate nearness badly, and may miss a shadow. It is called for some rows after the other;
+    /// row `end`, if there is one, must know its own. The last of the rows takes what it has asked
+    /// by the next call only, as the row after it asks it too.
+    void ask_neighbours(int first, int end, const Workers& workers);
 
   private:
+    struct Asked {
+        float nearness = 0;
+        std::uint8_t shadow = 0;
+    };
+
     int columns_, rows_;
     std::vector<GridPoint> points_;
+    std::vector<Asked> asked_; ///< of the last row of the last call
 };
 
 } // namespace hemilux

@@ -9,17 +9,27 @@
 
 #include "io/pictures/image.h"
 #include "io/rendering/picture_gather.h"
+#include "io/rendering/render.h"
 
 #include <functional>
 #include <span>
 
 namespace hemilux {
 
-/// Renders linear radiosity. `offsets` are those of the samples in a pixel; `check` may throw to
-/// end it, and is called by several threads.
-[[nodiscard]] Image gathered_picture(const Mesh& mesh, const VisibleFacets& visible,
-                                     const PictureGather& gather, std::span<const Vec2> offsets,
-                                     int width, int height, const std::function<void()>& check,
-                                     const Workers& workers);
+struct RowWork {
+    std::function<void()> check; ///< throws Interrupted to end it; is called by several threads
+    std::function<void(const Image& picture, int rows)> rows_done; ///< RenderOptions::rows_done
+};
+
+/// Renders linear radiosity, row after row from the top. `offsets` are those of the samples in a
+/// pixel; `panes` is null where there are none.
+[[nodiscard]] RowsOfPicture gathered_picture(const Mesh& mesh, const VisibleFacets& visible,
+                                             PictureGather& gather, const Tracer* panes,
+                                             std::span<const Vec2> offsets, int width, int height,
+                                             const RowWork& work, const Workers& workers);
+
+/// Returns the share that panes let through to what a pixel of the band shows.
+[[nodiscard]] double passed_through_panes(const VisibleFacets& visible, const Tracer& tracer,
+                                          const VisibleFacets::Band& band, int x, int y);
 
 } // namespace hemilux

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -93,12 +94,13 @@ PictureJudge judge_of_pictures(const Mesh& mesh, const Tracer& tracer, const Sur
             seed};
 }
 
-/// Returns the number of rays that it took.
-std::uint64_t PictureJudge::estimate_more(std::size_t pixels, const Workers& workers) {
+/// Returns the number of rays that it took; nothing where it was ended.
+std::optional<std::uint64_t> PictureJudge::estimate_more(std::size_t pixels, const Workers& workers,
+                                                         const GoOn& go_on) {
     constexpr std::size_t places = 2 * places_in_pixel;
+    constexpr std::size_t points_at_once = 2048; // some ten thousand rays
     const std::uint64_t seed = hash_words({seed_, asked_});
     const std::vector<JudgedPixel> chosen = choice_(pixels - asked_, seed);
-    asked_ = pixels;
     const auto place_of = [](const JudgedPixel& pixel, std::size_t j) -> const Place& {
         return pixel.places[pixel.places.size() == 1 ? 0 : j];
     };
@@ -112,7 +114,18 @@ std::uint64_t PictureJudge::estimate_more(std::size_t pixels, const Workers& wor
     FinalGather gather(mesh_, tracer_, light_);
     gather.set_only_reflected(only_reflected_);
     const StopFlag never;
-    const std::vector<Vec3> irradiance = gather.irradiance(at, streams, 1, workers, never);
+    std::vector<Vec3> irradiance;
+    while (irradiance.size() < at.size()) {
+        const std::size_t begin = irradiance.size();
+        if (go_on && !go_on(double(begin) / double(at.size())))
+            return std::nullopt;
+        const std::size_t count = std::min(points_at_once, at.size() - begin);
+        const std::vector<Vec3> some =
+            gather.irradiance(std::span(at).subspan(begin, count),
+                              std::span(streams).subspan(begin, count), 1, workers, never);
+        irradiance.insert(irradiance.end(), some.begin(), some.end());
+    }
+    asked_ = pixels;
     std::size_t next = 0;
     for (const JudgedPixel& pixel : chosen) {
         Estimates& found = known_.emplace_back(Estimates{.pixel = pixel.pixel});
@@ -126,9 +139,15 @@ std::uint64_t PictureJudge::estimate_more(std::size_t pixels, const Workers& wor
     return gather.rays();
 }
 
-PictureError PictureJudge::error_of(const Image& picture, std::size_t pixels,
-                                    const Workers& workers) {
-    const std::uint64_t rays = pixels > asked_ ? estimate_more(pixels, workers) : 0;
+std::optional<PictureError> PictureJudge::error_of(const Image& picture, std::size_t pixels,
+                                                   const Workers& workers, const GoOn& go_on) {
+    std::uint64_t rays = 0;
+    if (pixels > asked_) {
+        const std::optional<std::uint64_t> taken = estimate_more(pixels, workers, go_on);
+        if (!taken)
+            return std::nullopt;
+        rays = *taken;
+    }
     double products = 0, squares = 0, size = 0;
     LocalErrors parts;
     const std::size_t of_part = (known_.size() + parts_of_picture - 1) / parts_of_picture;
@@ -148,14 +167,14 @@ PictureError PictureJudge::error_of(const Image& picture, std::size_t pixels,
             parts.add(std::exchange(part_products, 0.0), std::exchange(part_size, 0.0));
     }
     if (!(size > 0))
-        return {.rays = rays};
+        return PictureError{.rays = rays};
     const double square = std::max(products / size, 0.0), sigma = std::sqrt(squares) / size;
     const double error = std::sqrt(square);
-    return {.error = error,
-            .uncertainty = std::sqrt(square + sigma) - error,
-            .local = parts.within(),
-            .level = std::sqrt(size / (3 * double(known_.size()))),
-            .rays = rays};
+    return PictureError{.error = error,
+                        .uncertainty = std::sqrt(square + sigma) - error,
+                        .local = parts.within(),
+                        .level = std::sqrt(size / (3 * double(known_.size()))),
+                        .rays = rays};
 }
 
 } // namespace hemilux

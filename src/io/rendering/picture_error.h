@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -57,7 +58,14 @@ class PictureJudge {
 
     /// Returns the error of a picture by about so many pixels, or by all that are known already.
     [[nodiscard]] PictureError error_of(const Image& picture, std::size_t pixels,
-                                        const Workers& workers);
+                                        const Workers& workers) {
+        return *error_of(picture, pixels, workers, {});
+    }
+    /// Does the same; returns nothing where go_on() ends it. It is called now and then with the
+    /// share that is done.
+    using GoOn = std::function<bool(double share)>;
+    [[nodiscard]] std::optional<PictureError> error_of(const Image& picture, std::size_t pixels,
+                                                       const Workers& workers, const GoOn& go_on);
 
   private:
     /// What a pixel shows, by both estimates [W/m2].
@@ -65,7 +73,8 @@ class PictureJudge {
         std::size_t pixel;
         std::array<Vec3, 2> reflected{}, emitted{};
     };
-    [[nodiscard]] std::uint64_t estimate_more(std::size_t pixels, const Workers& workers);
+    [[nodiscard]] std::optional<std::uint64_t>
+    estimate_more(std::size_t pixels, const Workers& workers, const GoOn& go_on);
 
     const Mesh& mesh_;
     const Tracer& tracer_;

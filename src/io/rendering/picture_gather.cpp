@@ -55,20 +55,59 @@ PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, const Surfa
                              const CameraRays& camera, int width, int height,
                              const PictureGatherOptions& options, const Workers& workers)
     : PictureGather(mesh, tracer, light,
-                    GatherGrid(mesh, camera, width, height, options.check, workers), options,
-                    workers) {}
+                    GatherGrid(mesh, camera, width, height, options.check, workers), options) {}
 
 PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
-                             GatherGrid grid, const PictureGatherOptions& options,
-                             const Workers& workers)
+                             GatherGrid grid, const PictureGatherOptions& options)
     : options_(options), in_parts_(mesh, tracer, light, options.only_reflected),
-      grid_(std::move(grid)), light_(grid_, tracer) {
-    gather([&](int, int) { return std::max(1u, options_.rays / 4); }, Shadows::traced, workers);
-    grid_.ask_neighbours(workers);
-    judge_points(workers);
-    gather([&](int x, int y) { return more_rays(x, y); }, Shadows::left_out, workers);
-    for (const int stride : {1, reach_points})
-        light_.fit(stride, options.check, workers);
+      grid_(std::move(grid)), light_(grid_, tracer) {}
+
+/// A step of the work reads what the one before has found some rows around. So each goes so many
+/// rows ahead of the next, and changes nothing that the rows of an earlier step still have to read:
+/// points take more rays only once all that judge by their first rays have done so.
+void PictureGather::prepare_rows(int end, const Workers& workers) {
+    constexpr int read_by_places = 3, asks = 1;
+    const auto ahead = [&](int of, int rows) { return std::min(grid_.rows(), of + rows); };
+    Done to;
+    to.twice = ahead(end / GatherGrid::step, read_by_places);
+    to.once = ahead(to.twice, SlowLightField::reaches_twice);
+    to.more_rays = chunks_up_to(ahead(to.once, SlowLightField::reaches_once));
+    to.judged = ahead(rows_of(to.more_rays), reach_points);
+    to.asked = ahead(to.judged, reach_points + asks);
+    to.first_rays = chunks_up_to(ahead(to.asked, asks));
+    if (to.twice <= done_.twice)
+        return;
+    gather(
+        done_.first_rays, to.first_rays, [&](int, int) { return std::max(1u, options_.rays / 4); },
+        Shadows::traced, workers);
+    if (to.asked > done_.asked)
+        grid_.ask_neighbours(done_.asked, to.asked, workers);
+    judge_points(done_.judged, to.judged, workers);
+    gather(
+        done_.more_rays, to.more_rays, [&](int x, int y) { return more_rays(x, y); },
+        Shadows::left_out, workers);
+    light_.fit_once(done_.once, to.once, options_.check, workers);
+    light_.fit_twice(done_.twice, to.twice, options_.check, workers);
+    done_ = to;
+}
+
+/// Points are gathered by chunks of so many, whose rays go on together: what a point gets must not
+/// depend on the rows that are prepared at a time.
+std::size_t PictureGather::points_of_chunk() const {
+    return std::max<std::size_t>(16, 8192 / options_.rays);
+}
+
+/// Returns how many chunks there are up to row `end`.
+std::size_t PictureGather::chunks_up_to(int end) const {
+    const std::size_t points = static_cast<std::size_t>(end) * std::size_t(grid_.columns());
+    return (points + points_of_chunk() - 1) / points_of_chunk();
+}
+
+/// Returns the rows of which so many chunks have points.
+int PictureGather::rows_of(std::size_t chunks) const {
+    const std::size_t points = std::min(chunks * points_of_chunk(), grid_.size()),
+                      columns = std::size_t(grid_.columns());
+    return static_cast<int>((points + columns - 1) / columns);
 }
 
 /// Takes the samples along a Z-curve, so that each aligned square of points has a net of the
@@ -82,53 +121,54 @@ GatherSamples PictureGather::samples_of(int x, int y, unsigned count) const {
     return {hash_words({column >> 8, block, count}), place * count, count};
 }
 
-/// Gathers by rays_at(x, y) more rays at each point.
+/// Gathers by rays_at(x, y) more rays at each point of some chunks.
 template <class Rays>
-void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& workers) {
+void PictureGather::gather(std::size_t first, std::size_t end, const Rays& rays_at, Shadows shadows,
+                           const Workers& workers) {
     const auto columns = static_cast<std::size_t>(grid_.columns());
-    workers.for_chunks(
-        grid_.size(), std::max<std::size_t>(16, 8192 / options_.rays),
-        [&](std::size_t begin, std::size_t end) {
-            options_.check();
-            SomePoints some;
-            for (std::size_t k = begin; k < end; ++k) {
-                if (grid_[k].at.facet == none)
-                    continue;
-                const int x = static_cast<int>(k % columns), y = static_cast<int>(k / columns);
-                const unsigned rays = rays_at(x, y);
-                if (rays == 0)
-                    continue;
-                GatherSamples samples = samples_of(x, y, rays);
-                samples.partly_aimed = grid_[k].aims;
-                some.add(k, grid_[k].at, samples);
-            }
-            const std::vector<IndirectLight> lights = in_parts_.indirect(some.points, some.samples);
-            const std::vector<EmitterLight> direct =
-                in_parts_.direct(some.points, some.samples, shadows);
-            for (std::size_t i = 0; i < lights.size(); ++i) {
-                GridPoint& point = grid_[some.which[i]];
-                point.rays += some.samples[i].count;
-                const double share = double(some.samples[i].count) / point.rays;
-                SlowLight& light = light_.at(some.which[i]);
-                const glm::vec3 indirect(lights[i].irradiance);
-                light.indirect =
-                    point.aims ? indirect : glm::mix(light.indirect, indirect, float(share));
-                light.unshadowed =
-                    glm::mix(light.unshadowed, glm::vec3(direct[i].unshadowed), float(share));
-                point.nearness = float(glm::mix(
-                    double(point.nearness),
-                    std::max(lights[i].nearness, of_emitters * direct[i].nearness), share));
-                point.squares += Vec2(lights[i].squares, lights[i].bright_squares);
-                if (shadows == Shadows::left_out)
-                    continue;
-                point.light = float(mean_of_channels(lights[i].irradiance + direct[i].arriving));
-                if (direct[i].arriving != Vec3(0.0))
-                    point.shadow |= none_blocked;
-                if (mean_of_channels(direct[i].arriving) <
-                    (1 - rounding) * mean_of_channels(direct[i].unshadowed))
-                    point.shadow |= all_blocked;
-            }
-        });
+    const std::size_t of_chunk = points_of_chunk();
+    workers.for_chunks(end - first, 1, [&](std::size_t chunk, std::size_t) {
+        options_.check();
+        SomePoints some;
+        const std::size_t begin = (first + chunk) * of_chunk;
+        for (std::size_t k = begin; k < std::min(begin + of_chunk, grid_.size()); ++k) {
+            if (grid_[k].at.facet == none)
+                continue;
+            const int x = static_cast<int>(k % columns), y = static_cast<int>(k / columns);
+            const unsigned rays = rays_at(x, y);
+            if (rays == 0)
+                continue;
+            GatherSamples samples = samples_of(x, y, rays);
+            samples.partly_aimed = grid_[k].aims;
+            some.add(k, grid_[k].at, samples);
+        }
+        const std::vector<IndirectLight> lights = in_parts_.indirect(some.points, some.samples);
+        const std::vector<EmitterLight> direct =
+            in_parts_.direct(some.points, some.samples, shadows);
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            GridPoint& point = grid_[some.which[i]];
+            point.rays += some.samples[i].count;
+            const double share = double(some.samples[i].count) / point.rays;
+            SlowLight& light = light_.at(some.which[i]);
+            const glm::vec3 indirect(lights[i].irradiance);
+            light.indirect =
+                point.aims ? indirect : glm::mix(light.indirect, indirect, float(share));
+            light.unshadowed =
+                glm::mix(light.unshadowed, glm::vec3(direct[i].unshadowed), float(share));
+            point.nearness = float(
+                glm::mix(double(point.nearness),
+                         std::max(lights[i].nearness, of_emitters * direct[i].nearness), share));
+            point.squares += Vec2(lights[i].squares, lights[i].bright_squares);
+            if (shadows == Shadows::left_out)
+                continue;
+            point.light = float(mean_of_channels(lights[i].irradiance + direct[i].arriving));
+            if (direct[i].arriving != Vec3(0.0))
+                point.shadow |= none_blocked;
+            if (mean_of_channels(direct[i].arriving) <
+                (1 - rounding) * mean_of_channels(direct[i].unshadowed))
+                point.shadow |= all_blocked;
+        }
+    });
 }
 
 /// Returns how many more rays a point needs. They help where few points are near enough to average
@@ -141,8 +181,8 @@ unsigned PictureGather::more_rays(int x, int y) const {
     return here.noise > noise_for_more ? options_.rays : 0;
 }
 
-void PictureGather::judge_points(const Workers& workers) {
-    grid_.for_each_point(workers, [&](const GridPoint& here, int x, int y) {
+void PictureGather::judge_points(int first, int end, const Workers& workers) {
+    grid_.for_each_point(first, end, workers, [&](const GridPoint& here, int x, int y) {
         GridPoint& judged = grid_[grid_.number_of(here)];
         judged.noise = float(light_.noise_around(here, x, y));
         judged.is_coarse = reach_of(here.nearness) < coarse_steps * grid_.spacing(x, y);

@@ -46,7 +46,12 @@ class PictureGather {
                   const PictureGatherOptions& options, const Workers& workers);
     /// Gathers at the points of a grid; pixel (0, 0) to (2, 2) is around its first point.
     PictureGather(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
-                  GatherGrid grid, const PictureGatherOptions& options, const Workers& workers);
+                  GatherGrid grid, const PictureGatherOptions& options);
+
+    /// Gathers at the points that places above row `end` of the picture read. Each point depends on
+    /// a few around it, so rows from the top are finished one after the other, and what they show
+    /// is the same as if all were gathered at once.
+    void prepare_rows(int end, const Workers& workers);
 
     /// A place where samples of a pixel show a surface: `count` of them, the first of which is
     /// number `sample` of the pixel.
@@ -66,7 +71,7 @@ class PictureGather {
         /// local units; 0 where the grid was read, and where no point of it is around.
         double reach = 0;
     };
-    /// Returns the light at each place. Several threads may call it.
+    /// Returns the light at each place, whose row is prepared. Several threads may call it.
     [[nodiscard]] std::vector<Light> irradiance(std::span<const Place> places) const;
     /// Returns the number of shadow rays of a pixel at the edge of a shadow.
     [[nodiscard]] unsigned shadow_rays() const { return of_sample() * options_.samples; }
@@ -74,17 +79,28 @@ class PictureGather {
   private:
     [[nodiscard]] GatherSamples samples_of(int x, int y, unsigned count) const;
     template <class Rays>
-    void gather(const Rays& rays_at, Shadows shadows, const Workers& workers);
+    void gather(std::size_t first, std::size_t end, const Rays& rays_at, Shadows shadows,
+                const Workers& workers);
+    [[nodiscard]] std::size_t points_of_chunk() const;
+    [[nodiscard]] std::size_t chunks_up_to(int end) const;
+    [[nodiscard]] int rows_of(std::size_t chunks) const;
     [[nodiscard]] unsigned more_rays(int x, int y) const;
     [[nodiscard]] unsigned of_sample() const {
         return std::max(1u, options_.shadow_rays / options_.samples);
     }
-    void judge_points(const Workers& workers);
+    void judge_points(int first, int end, const Workers& workers);
+
+    /// What is done from the top: chunks of points that have their rays, and rows.
+    struct Done {
+        std::size_t first_rays = 0, more_rays = 0;
+        int asked = 0, judged = 0, once = 0, twice = 0;
+    };
 
     PictureGatherOptions options_;
     GatherInParts in_parts_;
     GatherGrid grid_;
     SlowLightField light_; ///< of the grid
+    Done done_;
 };
 
 } // namespace hemilux

@@ -14,6 +14,8 @@
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/solution.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <stdexcept>
@@ -101,102 +103,153 @@ class Shading {
     std::vector<Vec3> corner_radiosity_;
 };
 
-/// Renders the light of the patches at what each pixel shows.
-Image shaded_picture(const VisibleFacets& visible, const Shading& shading,
-                     const RenderOptions& options, const std::function<void()>& check) {
-    Image image(options.width, options.height);
+int squares(int pixels, int side) { return (pixels + side - 1) / side; }
+
+/// Returns the samples of a picture of squares, as many as its columns and rows.
+SampleGrid grid_of(int width, int height, int square) {
+    return {squares(width, square), squares(height, square), double(square) / width,
+            double(square) / height};
+}
+
+/// Renders the light of the patches at what each pixel or square shows.
+Image shaded_picture(const VisibleFacets& visible, const SampleGrid& grid, const Shading& shading,
+                     const Tracer* panes, const RenderOptions& options,
+                     const std::function<void()>& check) {
+    Image image(grid.columns, grid.rows);
+    const unsigned samples = options.square > 1 ? 1 : static_cast<unsigned>(options.samples);
     const auto pixel = [&](const VisibleFacets::Band& band, int x, int y) {
         Vec3 sum(0.0);
         visible.visit_pixel(band, x, y, !options.smooth,
                             [&](std::uint32_t half, const Vec2& place, unsigned, unsigned count) {
                                 sum += double(count) * shading.at(visible, half, place);
                             });
-        return glm::vec3(sum / double(options.samples));
+        return glm::vec3(sum / double(samples));
     };
-    visible.for_each_band(Workers(options.threads), check,
-                          [&](const VisibleFacets::Band& band, int first, int end) {
-                              for (int y = first; y < end; ++y)
-                                  for (int x = 0; x < options.width; ++x)
-                                      image.at(x, y) = pixel(band, x, y);
-                          });
+    visible.for_each_band(
+        Workers(options.threads), check, [&](const VisibleFacets::Band& band, int first, int end) {
+            for (int y = first; y < end; ++y)
+                for (int x = 0; x < grid.columns; ++x) {
+                    image.at(x, y) = pixel(band, x, y);
+                    if (panes)
+                        image.at(x, y) *= float(passed_through_panes(visible, *panes, band, x, y));
+                }
+        });
     return image;
 }
 
-/// Multiplies each pixel by what the panes before its surfaces let through, in the mean over its
-/// samples.
-void dim_behind_panes(Image& image, const VisibleFacets& visible, const Tracer& tracer,
-                      const RenderOptions& options, const std::function<void()>& check) {
-    const auto passed = [&](const VisibleFacets::Band& band, int x, int y) {
-        double sum = 0;
-        unsigned samples = 0;
-        visible.visit_pixel(
-            band, x, y, true, [&](std::uint32_t half, const Vec2& place, unsigned, unsigned count) {
-                const Vec3 way = visible.direction(place);
-                sum += count * tracer.passed({.origin = visible.eye(),
-                                              .direction = way,
-                                              .t_max = visible.hit_at(half, way).t});
-                samples += count;
-            });
-        return samples > 0 ? sum / samples : 1;
+/// Returns a picture each of whose squares has the colour of a pixel.
+Image enlarged(const Image& image, int square, int width, int height) {
+    Image large(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            large.at(x, y) = image.at(x / square, y / square);
+    return large;
+}
+
+/// What pictures of both kinds need to know of the scene and the camera.
+struct View {
+    const Mesh& mesh;
+    const Tracer& tracer;
+    CameraRays rays;
+    std::vector<Vec2> offsets;
+    SampleGrid grid;
+    VisibleFacets visible;
+
+    View(const Mesh& mesh_, const Tracer& tracer_, const Camera& camera,
+         const RenderOptions& options, int square)
+        : mesh(mesh_), tracer(tracer_), rays(camera, mesh_, double(options.width) / options.height),
+          offsets(square > 1 ? std::vector{Vec2(.5)} : pixel_samples(options.samples)),
+          grid(grid_of(options.width, options.height, square)),
+          visible(mesh, rays, grid, offsets, options.threads) {}
+    View(const View&) = delete;
+    View& operator=(const View&) = delete;
+
+    [[nodiscard]] const Tracer* panes() const {
+        return panes_of(mesh.scene()).empty() ? nullptr : &tracer;
+    }
+};
+
+std::function<void()> check_of(const RenderOptions& options) {
+    return [&options] {
+        if (options.give_up && options.give_up())
+            throw Interrupted();
     };
-    visible.for_each_band(Workers(options.threads), check,
-                          [&](const VisibleFacets::Band& band, int first, int end) {
-                              for (int y = first; y < end; ++y)
-                                  for (int x = 0; x < options.width; ++x)
-                                      image.at(x, y) *= static_cast<float>(passed(band, x, y));
-                          });
+}
+
+void check_size(const RenderOptions& options) {
+    if (options.width < 1 || options.height < 1 || options.samples < 1 || options.square < 1)
+        throw std::invalid_argument("a picture needs at least one pixel and one sample");
 }
 
 } // namespace
 
 Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
              const Camera& camera, const RenderOptions& options) {
-    if (options.width < 1 || options.height < 1 || options.samples < 1)
-        throw std::invalid_argument("a picture needs at least one pixel and one sample");
-    const double width = options.width, height = options.height;
-    const CameraRays rays(camera, mesh, width / height);
-    const std::vector<Vec2> offsets = pixel_samples(options.samples);
-    const VisibleFacets visible(mesh, rays, {options.width, options.height, 1 / width, 1 / height},
-                                offsets, options.threads);
-    const std::function<void()> check = [&] {
-        if (options.give_up && options.give_up())
+    check_size(options);
+    if (options.gather > 0) {
+        RowsOfPicture found = render_rows(mesh, tracer, radiosity, camera, options);
+        if (found.rows < options.height)
             throw Interrupted();
-    };
-    const auto behind_panes = [&](Image image) {
-        if (!panes_of(mesh.scene()).empty())
-            dim_behind_panes(image, visible, tracer, options, check);
-        return image;
-    };
-    if (options.gather == 0)
-        return behind_panes(
-            shaded_picture(visible, Shading(mesh, radiosity, options), options, check));
-    const auto samples = static_cast<unsigned>(options.samples);
-    const PictureGather gather(
-        mesh, tracer, SurfaceLight(mesh, PatchLight(radiosity, options.slope), options.cells), rays,
-        options.width, options.height,
-        {.rays = options.gather,
-         .shadow_rays = options.coarse_rays > 0 ? options.gather : options.gather / 2,
-         .samples = samples,
-         .round = options.gather_round,
-         .coarse_rays = options.coarse_rays,
-         .check = check},
-        Workers(options.threads));
-    return behind_panes(gathered_picture(mesh, visible, gather, offsets, options.width,
-                                         options.height, check, Workers(options.threads)));
+        return std::move(found.image);
+    }
+    const View view(mesh, tracer, camera, options, options.square);
+    Image image = shaded_picture(view.visible, view.grid, Shading(mesh, radiosity, options),
+                                 view.panes(), options, check_of(options));
+    return options.square > 1 ? enlarged(image, options.square, options.width, options.height)
+                              : std::move(image);
+}
+
+RowsOfPicture render_rows(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
+                          const Camera& camera, const RenderOptions& options) {
+    check_size(options);
+    const Workers workers(options.threads);
+    const std::function<void()> check = check_of(options);
+    try {
+        const View view(mesh, tracer, camera, options, 1);
+        PictureGather gather(
+            mesh, tracer, SurfaceLight(mesh, PatchLight(radiosity, options.slope), options.cells),
+            view.rays, options.width, options.height,
+            {.rays = options.gather,
+             .shadow_rays = options.coarse_rays > 0 ? options.gather : options.gather / 2,
+             .samples = static_cast<unsigned>(options.samples),
+             .round = options.gather_round,
+             .coarse_rays = options.coarse_rays,
+             .check = check},
+            workers);
+        return gathered_picture(mesh, view.visible, gather, view.panes(), view.offsets,
+                                options.width, options.height, {check, options.rows_done}, workers);
+    } catch (const Interrupted&) {
+        return {};
+    }
+}
+
+int square_for_speed(int width, int height, double squares) {
+    return std::max(1, static_cast<int>(std::ceil(std::sqrt(double(width) * height / squares))));
 }
 
 double exposure_of(const Image& picture, const Mesh& mesh, const Tracer& tracer,
-                   const Camera& camera, unsigned threads) {
+                   const Camera& camera, unsigned threads, int square) {
     std::vector<Vec3> emission;
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
         emission.push_back(mesh.material(i).emission);
-    return auto_exposure(picture, render(mesh, tracer, emission, camera,
-                                         {.width = picture.width,
-                                          .height = picture.height,
-                                          .samples = 1,
-                                          .textures = true,
-                                          .smooth = false,
-                                          .threads = threads}));
+    const RenderOptions options{.width = picture.width,
+                                .height = picture.height,
+                                .samples = 1,
+                                .textures = true,
+                                .smooth = false,
+                                .threads = threads,
+                                .square = square};
+    const View view(mesh, tracer, camera, options, square);
+    const Image emitted = shaded_picture(view.visible, view.grid, Shading(mesh, emission, options),
+                                         view.panes(), options, [] {});
+    if (square == 1)
+        return auto_exposure(picture, emitted);
+    Image middles(emitted.width, emitted.height);
+    for (int y = 0; y < middles.height; ++y)
+        for (int x = 0; x < middles.width; ++x)
+            middles.at(x, y) = picture.at(std::min(x * square + square / 2, picture.width - 1),
+                                          std::min(y * square + square / 2, picture.height - 1));
+    return auto_exposure(middles, emitted);
 }
 
 } // namespace hemilux

@@ -30,8 +30,19 @@ struct RenderOptions {
     const CornerClasses* classes = nullptr; ///< of the mesh, where they are known already
     std::span<const Slope> slope = {};      ///< of the patches' light; empty: none
     const IrradianceCells* cells = nullptr; ///< what gathers read besides, where walks found it
-    /// All threads ask it before each band of rows; true ends the picture with Interrupted.
+    /// The patches' light is shown by squares of so many pixels, each by the sample in its middle.
+    int square = 1;
+    /// All threads ask it now and then; true ends the picture with Interrupted.
     std::function<bool()> give_up = {};
+    /// Is called where light is gathered, with the picture and the number of its rows, from the
+    /// top, that are finished.
+    std::function<void(const Image& picture, int rows)> rows_done = {};
+};
+
+/// A picture of which so many rows are finished, from the top.
+struct RowsOfPicture {
+    Image image;
+    int rows = 0;
 };
 
 /// Renders the linear radiosity seen through the camera; black where there is no surface. Throws
@@ -39,8 +50,19 @@ struct RenderOptions {
 [[nodiscard]] Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
                            const Camera& camera, const RenderOptions& options = {});
 
-/// Returns the exposure by auto_exposure() for a picture that render() made.
+/// Renders a picture whose light is gathered. Where `give_up` ends it, it has the rows that are
+/// finished by then.
+[[nodiscard]] RowsOfPicture render_rows(const Mesh& mesh, const Tracer& tracer,
+                                        std::span<const Vec3> radiosity, const Camera& camera,
+                                        const RenderOptions& options);
+
+/// Returns the exposure by auto_exposure() for a picture that render() made, by one pixel of each
+/// square of so many.
 [[nodiscard]] double exposure_of(const Image& picture, const Mesh& mesh, const Tracer& tracer,
-                                 const Camera& camera, unsigned threads = 0);
+                                 const Camera& camera, unsigned threads = 0, int square = 1);
+
+/// Returns the side of squares [pixels] of which a picture has about so many.
+inline constexpr double pixels_for_speed = 1 << 20;
+[[nodiscard]] int square_for_speed(int width, int height, double squares = pixels_for_speed);
 
 } // namespace hemilux

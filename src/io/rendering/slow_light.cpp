@@ -57,14 +57,14 @@ double reach_of(double nearness) { return reach_share / nearness; }
 double SlowLightField::noise_around(const GridPoint& here, int x, int y) const {
     const double most = 1 / (min_steps * grid_.spacing(x, y));
     LinearFit fit;                            // to the light of all points around
-    double all = 0, weights = 0, squares = 0; // weights as those of fit()
+    double all = 0, weights = 0, squares = 0; // weights as those of fits
     Vec2 at(0.0), around(0.0);                // mean offset and its square
     for (int dy = -reach_points; dy <= reach_points; ++dy)
         for (int dx = -reach_points; dx <= reach_points; ++dx) {
             const GridPoint* const there = grid_.point(x + dx, y + dy);
             if (!there || !here.is_of_surface(*there))
                 continue;
-            const SlowLight& light = light_[grid_.number_of(*there)];
+            const SlowLight& light = gathered_[grid_.number_of(*there)];
             const Vec2 offset(dx, dy);
             fit.add(offset, mean_of_channels(Vec3(light.indirect + light.unshadowed)), 1);
             all += double(there->light);
@@ -86,16 +86,17 @@ double SlowLightField::noise_around(const GridPoint& here, int x, int y) const {
     return std::sqrt(fit.variance() * squares * beside) / weights / (all / fit.weight());
 }
 
-void SlowLightField::fit(int stride, const std::function<void()>& check, const Workers& workers) {
-    std::vector<SlowLight> fitted(light_.size());
+void SlowLightField::fit(int stride, const std::vector<SlowLight>& light,
+                         std::vector<SlowLight>& fitted, int first, int end,
+                         const std::function<void()>& check, const Workers& workers) {
     grid_.for_each_point(
-        workers,
+        first, end, workers,
         [&](const GridPoint& here, int x, int y) {
             const double most = 1 / (min_steps * grid_.spacing(x, y));
             const std::size_t number = grid_.number_of(here);
-            SlowLightFit fit(light_[number]);
+            SlowLightFit fit(light[number]);
             const auto add = [&](const Neighbour& neighbour) {
-                fit.add(neighbour.offset, light_[neighbour.number], neighbour.weight);
+                fit.add(neighbour.offset, light[neighbour.number], neighbour.weight);
             };
             ShadowRays<Neighbour> doubtful; // something may hide them
             for (int dy = -reach_points; dy <= reach_points; ++dy)
@@ -116,8 +117,8 @@ void SlowLightField::fit(int stride, const std::function<void()>& check, const W
                 else
                     at_barrier_[number] = 1;
             });
-            const auto& [light, slope] = fit.solve();
-            fitted[number] = light;
+            const auto& [mean, slope] = fit.solve();
+            fitted[number] = mean;
             constexpr double enough = 10; // points that are wide apart know a slope better
             if (stride == 1 || fit.weight() > enough)
                 for (std::size_t k = 0; k < slope.size(); ++k)
@@ -125,7 +126,6 @@ void SlowLightField::fit(int stride, const std::function<void()>& check, const W
                                          slope[k].indirect / float(stride)};
         },
         check);
-    light_ = std::move(fitted);
 }
 
 std::optional<SlowLightField::Around>
@@ -151,7 +151,7 @@ SlowLightField::interpolate(const SurfacePoint& at, const Vec2& pixel, std::uint
                 const double weight =
                     (least + across * down) / (1 + share * share * glm::dot(way, way));
                 const std::size_t of = grid_.number_of(*there);
-                sum.add(light_[of], float(weight));
+                sum.add(twice_[of], float(weight));
                 sum.add(slope_[of][0], float(weight * (x - left - dx)));
                 sum.add(slope_[of][1], float(weight * (y - top - dy)));
                 weights += weight;

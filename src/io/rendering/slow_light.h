@@ -35,22 +35,30 @@ class SlowLightField {
   public:
     /// Both must outlive this object; the grid may still change.
     SlowLightField(const GatherGrid& grid, const Tracer& tracer)
-        : grid_(grid), tracer_(tracer), light_(grid.size()), slope_(grid.size()),
-          at_barrier_(grid.size()) {}
+        : grid_(grid), tracer_(tracer), gathered_(grid.size()), once_(grid.size()),
+          twice_(grid.size()), slope_(grid.size()), at_barrier_(grid.size()) {}
 
-    /// Returns the light of a point of the grid, by its number.
-    [[nodiscard]] SlowLight& at(std::size_t point) { return light_[point]; }
+    /// Returns the light that was gathered at a point of the grid, by its number.
+    [[nodiscard]] SlowLight& at(std::size_t point) { return gathered_[point]; }
 
-    /// Returns the error of what fit() finds at a point, relative to all light that arrives there.
-    /// It follows from what a linear function leaves of the points around, as if they were
+    /// Returns the error of what fits find at a point, relative to all light that arrives there. It
+    /// follows from what a linear function leaves of the points around, as if they were
     /// independent.
     [[nodiscard]] double noise_around(const GridPoint& here, int x, int y) const;
 
-    /// Fits a linear function to the points around each (local linear regression: Fan 1992). Light
-    /// that changes evenly then stays as it is up to the edge of a surface. The points are `stride`
-    /// apart: light smoothed with stride 1 has little detail between such points (the algorithme a
-    /// trous: Dammertz et al. 2010). `check` may throw to end it.
-    void fit(int stride, const std::function<void()>& check, const Workers& workers);
+    /// Fits a linear function to the points around each of some rows (local linear regression: Fan
+    /// 1992). Light that changes evenly then stays as it is up to the edge of a surface. The light
+    /// reaches_once rows around must have been gathered. `check` may throw to end it.
+    void fit_once(int first, int end, const std::function<void()>& check, const Workers& workers) {
+        fit(1, gathered_, once_, first, end, check, workers);
+    }
+    /// Does the same once more by points that are farther apart, as light that is smoothed has
+    /// little detail between them (the algorithme a trous: Dammertz et al. 2010). The rows
+    /// reaches_twice around must have been fitted once.
+    void fit_twice(int first, int end, const std::function<void()>& check, const Workers& workers) {
+        fit(reach_points, once_, twice_, first, end, check, workers);
+    }
+    static constexpr int reaches_once = reach_points, reaches_twice = reach_points * reach_points;
 
     struct Around {
         SlowLight light;
@@ -65,9 +73,12 @@ class SlowLightField {
                                                     std::uint32_t part = 0) const;
 
   private:
+    void fit(int stride, const std::vector<SlowLight>& light, std::vector<SlowLight>& fitted,
+             int first, int end, const std::function<void()>& check, const Workers& workers);
+
     const GatherGrid& grid_;
     const Tracer& tracer_;
-    std::vector<SlowLight> light_; ///< by point
+    std::vector<SlowLight> gathered_, once_, twice_; ///< by point: gathered, fitted once and twice
     /// The change of the light from a point to the next one on the right, and in the next row.
     std::vector<std::array<SlowLight, 2>> slope_;
     /// Something stands between the point and another near it, by point: 1 or 0.

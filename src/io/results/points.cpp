@@ -168,7 +168,8 @@ void write_points_table(const std::string& path, const Mesh& mesh,
                 texts[k].clear();
                 for (std::size_t i = row(k); i < row(k + 1); ++i)
                     append_row(mesh, i, points[i], sensors[i],
-                               i < lights.size() ? &lights[i] : nullptr, more, texts[k]);
+                               i < lights.size() && lights[i].is_known ? &lights[i] : nullptr, more,
+                               texts[k]);
             },
             [&](std::size_t k) { file.write(texts[k]); });
     }

@@ -37,7 +37,7 @@ TEST_CASE("pictures are gathered, unless --no-gather; those of steps are not") {
     }
 }
 
-TEST_CASE("a signal ends a gather, and pictures then show the light of the patches", "[slow]") {
+TEST_CASE("a signal ends a gather, and pictures show what there is", "[slow]") {
     const Workplace place;
     place.write_room();
     Running run(place,
@@ -48,10 +48,8 @@ TEST_CASE("a signal ends a gather, and pictures then show the light of the patch
     run.interrupt();
     CHECK(run.wait() == 130);
     CHECK(place.has("a.csv"));
-    // A slow machine may take longer even for the light of the patches than it is given.
-    const std::string talk = place.read("talk.txt");
-    CHECK_THAT(talk, Contains("interrupted; pictures show the light of the patches"));
-    CHECK(place.has("a.png") != Contains("interrupted; left out a.png").match(talk));
+    CHECK(place.has("a.png"));
+    CHECK_THAT(place.read("talk.txt"), Contains("show the light of the patches"));
 }
 
 TEST_CASE("the seconds of the stages are all of a run", "[slow]") {

@@ -39,14 +39,14 @@ const std::vector<Stage>& stages() {
         // The error of what patches leave out.
         {"solve room.obj --divide auto --error 0.0001% --max-rays 1000000000000000 -v -o a.ply",
          "BVH", "a.ply"},
-        // Gathering at points and in a picture; what is made of patches is there.
+        // Gathering at points and in a picture.
         {"solve room.obj --points points --points-output p.csv --gather 1024 --max-rays 1000000 -v "
          "-o "
          "a.csv",
-         "step 1:", "a.csv"},
+         "step 1:", "p.csv"},
         {"solve room.obj --gather 1024 --size 8192x8192 --max-rays 1000000 -v -o a.csv -o a.png " +
              test::camera_in_room,
-         "step 1:", "a.csv"},
+         "step 1:", "a.png"},
         // What is made for a mesh.
         {"solve room.obj --method stratified --steps 1 --max-edge .02 --bake indirect --gather "
          "1024 -v -o a.csv -o a.glb",

@@ -135,9 +135,11 @@ ReadError LightCache::Round::error(std::span<const TargetPart> target, double n)
             .level = std::sqrt(light / (3 * weight))};
 }
 
+/// Calls done(walks) after some of them, on any thread.
+template <class Done>
 LightCache::Round LightCache::take_walks(std::span<const TargetPart> target, std::size_t of_group,
                                          std::uint64_t seed, const Workers& workers,
-                                         const StopFlag& interrupted) {
+                                         const StopFlag& interrupted, const Done& done) {
     Round round;
     round.groups.resize(target.size());
     const Walks walks(mesh_, tracer_, light_);
@@ -167,6 +169,7 @@ LightCache::Round LightCache::take_walks(std::span<const TargetPart> target, std
             }
             found.assign(starts.size(), {});
             rays[chunk] += walks.take(starts, found, samples[chunk]);
+            done(starts.size());
             for (std::size_t k = first; k < last; ++k) {
                 const TargetPart& part = target[k / of_part];
                 round.groups[k / of_part]
@@ -204,6 +207,14 @@ bool is_known(const ReadError& found, const LearnOptions& options) {
                options.accuracy * (found.error * found.error + options.error * options.error / 4);
 }
 
+/// Returns about how many walks it takes in all, of which `taken` have this error: noise falls as
+/// the root of their number.
+double walks_needed(const ReadError& found, double taken, const LearnOptions& options) {
+    constexpr double least = double(first_walks << (min_rounds - 1));
+    const double excess = std::isfinite(found.bound) ? found.bound / options.error : 1;
+    return std::max(least, taken * excess * excess);
+}
+
 /// Once the light is right further rounds only judge it.
 ReadError LightCache::learn(std::span<const TargetPart> target, const LearnOptions& options,
                             const Workers& workers, const StopFlag& interrupted) {
@@ -222,9 +233,18 @@ ReadError LightCache::learn(std::span<const TargetPart> target, const LearnOptio
         const std::vector<TargetPart> some =
             some_of(target, options.accuracy > 0 ? max_parts_to_know : parts_of_round, seed);
         const std::size_t of_group = std::max(min_of_group, next / (2 * some.size()));
-        const Round round = take_walks(some, of_group, seed, workers, interrupted);
-        if (interrupted)
-            return {};
+        const double needed = walks_needed(found, double(walks), options);
+        std::atomic<std::uint64_t> begun{walks};
+        const Round round =
+            take_walks(some, of_group, seed, workers, interrupted, [&](std::size_t more) {
+                if (options.share)
+                    *options.share = double(begun += more) / std::max(needed, double(begun));
+            });
+        if (interrupted) {
+            if (number < min_rounds)
+                found = {};
+            break;
+        }
         found = round.error(some, static_cast<double>(of_group));
         if (!is_right) {
             cells_.add(round.samples);

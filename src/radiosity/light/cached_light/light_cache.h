@@ -10,6 +10,7 @@
 #include "radiosity/light/cached_light/irradiance_cells.h"
 #include "radiosity/light/cached_light/surface_light.h"
 
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -40,6 +41,9 @@ struct LearnOptions {
     std::uint64_t max_rays = 30'000'000;
     /// No round of walks is begun that would end later than this time [s], if there is an end.
     std::optional<double> seconds = {};
+    /// Is set to the share of the walks that is done, as far as the error so far tells their
+    /// number.
+    std::atomic<double>* share = nullptr;
 };
 
 /// The error of gathers over a target by what they read: RMS over its parts and channels, relative
@@ -64,7 +68,8 @@ class LightCache {
     LightCache(const LightCache&) = delete;
     LightCache& operator=(const LightCache&) = delete;
 
-    /// Learns the light that the target sees. Nothing is known if it was interrupted.
+    /// Learns the light that the target sees. If it was interrupted, the error is that of the
+    /// rounds before, of which a few are needed to know it.
     ReadError learn(std::span<const TargetPart> target, const LearnOptions& options,
                     const Workers& workers, const StopFlag& interrupted);
 
@@ -73,8 +78,9 @@ class LightCache {
 
   private:
     struct Round;
+    template <class Done>
     Round take_walks(std::span<const TargetPart> target, std::size_t of_group, std::uint64_t seed,
-                     const Workers& workers, const StopFlag& interrupted);
+                     const Workers& workers, const StopFlag& interrupted, const Done& done);
 
     const Mesh& mesh_;
     const Tracer& tracer_;

@@ -46,14 +46,20 @@ class Limits {
 
     /// Returns the reason to begin no more; `right` where there is none.
     [[nodiscard]] PointsEnd reached(std::uint64_t rays) const {
-        if (options_.give_up && options_.give_up())
-            return PointsEnd::gave_up;
         if (rays >= options_.max_all_rays)
             return PointsEnd::rays;
+        if (rays == 0) // of the first block, whose light is given out in any case
+            return PointsEnd::right;
+        if (options_.give_up && options_.give_up())
+            return PointsEnd::gave_up;
         return options_.seconds && elapsed() > *options_.seconds ? PointsEnd::time
                                                                  : PointsEnd::right;
     }
-    [[nodiscard]] bool has_lost_patience() const { return elapsed() > options_.patience; }
+    /// Notes the share of the rays that is done.
+    void tell(double share) const {
+        if (options_.share)
+            *options_.share = share;
+    }
 
   private:
     [[nodiscard]] double elapsed() const {
@@ -65,10 +71,10 @@ class Limits {
 };
 
 /// Gathers at the sensors in order with so many rounds of rays in each of the gathers, until a
-/// limit is reached, which `end` then names.
+/// limit is reached, which `end` then names. The rays of a point before were `before` rounds.
 std::vector<Gathered> gather_at(std::span<const Sensor> sensors, FinalGather& gather,
-                                unsigned rounds, std::uint64_t seed, const Limits& limits,
-                                const Workers& workers, PointsEnd& end) {
+                                unsigned before, unsigned rounds, std::uint64_t seed,
+                                const Limits& limits, const Workers& workers, PointsEnd& end) {
     const std::size_t rays_of_point = std::size_t{gathers} * rays_of_round * rounds;
     const std::size_t block = std::max<std::size_t>(1, rays_per_block / rays_of_point);
     const StopFlag never;
@@ -79,6 +85,7 @@ std::vector<Gathered> gather_at(std::span<const Sensor> sensors, FinalGather& ga
         end = limits.reached(gather.rays());
         if (end != PointsEnd::right)
             break;
+        limits.tell((before + rounds * double(begin) / double(sensors.size())) / (before + rounds));
         std::vector<SurfacePoint> at;
         std::vector<std::uint64_t> streams;
         for (const Sensor& sensor :
@@ -126,17 +133,15 @@ LightAtPoints light_at(std::span<const Sensor> sensors, const Mesh& mesh, const 
     const auto rounds_of = [](double rays) {
         return std::max(1u, static_cast<unsigned>(std::ceil(rays / (gathers * rays_of_round))));
     };
-    // A pass that reduces the noise by less has found light that those before had not.
-    constexpr double helps = .9;
     FinalGather gather(mesh, tracer, light);
     const Limits limits(options);
     LightAtPoints all;
     std::vector<Gathered> found;
-    double before = std::numeric_limits<double>::infinity(); // noise
     unsigned next = options.rays > 0 ? rounds_of(options.rays) : first_rounds, rounds = 0;
     for (std::uint64_t pass = 0; next > 0; ++pass) {
-        const std::vector<Gathered> more = gather_at(
-            sensors, gather, next, hash_words({options.seed, pass}), limits, workers, all.end);
+        const std::vector<Gathered> more =
+            gather_at(sensors, gather, rounds, next, hash_words({options.seed, pass}), limits,
+                      workers, all.end);
         const double share = double(next) / double(rounds + next);
         if (pass == 0)
             found.resize(more.size());
@@ -148,12 +153,7 @@ LightAtPoints light_at(std::span<const Sensor> sensors, const Mesh& mesh, const 
         next = 0;
         if (all.end != PointsEnd::right)
             break;
-        const double noise = noise_of(found), excess = noise / options.noise;
-        if (excess > 1 && !(noise < helps * before) && limits.has_lost_patience()) {
-            all.end = PointsEnd::patience;
-            break;
-        }
-        before = noise;
+        const double excess = noise_of(found) / options.noise;
         const unsigned most = std::max(1u, options.max_rays / (gathers * rays_of_round));
         if (options.rays == 0 && excess > 1 && rounds < most)
             next = static_cast<unsigned>(

@@ -4,6 +4,7 @@
 #include "radiosity/light/cached_light/surface_light.h"
 #include "radiosity/light/final_gather/surface_points.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -33,6 +34,7 @@ struct PointLight {
     /// The error of the irradiance [W/m2], by the spread of the gathers and by the error of the
     /// light that they read.
     Vec3 standard_error{0.0};
+    bool is_known = true;
 };
 
 struct PointLightOptions {
@@ -47,19 +49,24 @@ struct PointLightOptions {
     std::uint64_t max_all_rays = std::numeric_limits<std::uint64_t>::max();
     double read_error = 0; ///< error by the light that is read [W/m2]
     std::uint64_t seed = 1;
-    /// Is asked before each block of points; true ends the work.
+    /// Is asked before each block of points but the first; true ends the work.
     std::function<bool()> give_up = {};
-    /// The time [s] after which no more blocks of points are begun, if there is an end.
+    /// The time [s] after which no more blocks of points but the first are begun, if there is an
+    /// end.
     std::optional<double> seconds = {};
-    /// The time [s] after which the work ends where more rays no longer reduce the noise.
-    double patience = std::numeric_limits<double>::infinity();
+    /// Is set to the share of the rays that is done, as far as the noise so far tells their number.
+    std::atomic<double>* share = nullptr;
 };
 
+/// The number of rays from a point at first: they say how many more are needed.
+inline constexpr unsigned first_rays_of_point = 160;
+
 /// The reason for which rays ended.
-enum class PointsEnd { right, gave_up, rays, time, patience };
+enum class PointsEnd { right, gave_up, rays, time };
 
 struct LightAtPoints {
     /// By sensor; fewer than sensors where the work ended before the first rays of all were traced.
+    /// A signal or a limit of time leaves those of the first block, some thousand points, too.
     std::vector<PointLight> lights;
     PointsEnd end = PointsEnd::right;
     double noise = 0;             ///< of rays, as PointLightOptions::noise [-]

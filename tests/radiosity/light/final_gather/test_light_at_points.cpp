@@ -143,7 +143,7 @@ TEST_CASE("the standard error of a point's light is how far runs scatter", "[slo
     }
 }
 
-TEST_CASE("light at points does not depend on the number of threads, and can be given up") {
+TEST_CASE("light at points does not depend on the number of threads") {
     const Model model(test::room_with_block());
     const Solution solution =
         test::solve(model, *find_method("stored-transport"), {}, test::steps(2));
@@ -156,9 +156,6 @@ TEST_CASE("light at points does not depend on the number of threads, and can be 
         CHECK(one[k].irradiance == three[k].irradiance);
         CHECK(one[k].standard_error == three[k].standard_error);
     }
-    CHECK(light_at(sensors, model.mesh, model.bvh, SurfaceLight(model.mesh, solution),
-                   {.give_up = [] { return true; }}, Workers(1))
-              .lights.empty());
 }
 
 TEST_CASE("rays at points end by a limit, and the points that had theirs keep their light") {
@@ -190,21 +187,15 @@ TEST_CASE("rays at points end by a limit, and the points that had theirs keep th
     CHECK(in_two_passes.end == PointsEnd::rays);
     CHECK(in_two_passes.lights.size() == sensors.size());
     CHECK(in_two_passes.noise > 0);
-    CHECK(light({.seconds = 0}, 0).lights.empty());
-    CHECK(light({.seconds = 0}, 0).end == PointsEnd::time);
-}
-
-TEST_CASE("patience does not end rays at points that reduce the noise") {
-    const Model model(test::room_with_block());
-    const Solution solution =
-        test::solve(model, *find_method("stored-transport"), {}, test::steps(2));
-    const std::vector<Sensor> sensors{sensor_at(model.mesh, model.bvh, Vec3(0.0), {0, 0, 1})};
-    const auto light = [&](double patience) {
-        return light_at(sensors, model.mesh, model.bvh, SurfaceLight(model.mesh, solution),
-                        {.noise = 1e-9, .max_rays = 1 << 16, .patience = patience}, Workers(1));
-    };
-    const LightAtPoints without = light(std::numeric_limits<double>::infinity());
-    CHECK(without.rays >= 1 << 16);
-    CHECK(light(0).rays == without.rays);
-    CHECK(light(0).end == PointsEnd::right);
+    // The first block has its light whatever ends the work.
+    const LightAtPoints late = light({.rays = 128, .seconds = 0}, 0),
+                        given_up = light({.rays = 128, .give_up = [] { return true; }}, 0);
+    CHECK(late.end == PointsEnd::time);
+    CHECK(given_up.end == PointsEnd::gave_up);
+    for (const LightAtPoints* const found : {&late, &given_up}) {
+        REQUIRE(found->lights.size() > 1000);
+        REQUIRE(found->lights.size() < sensors.size());
+        for (std::size_t k = 0; k < found->lights.size(); ++k)
+            CHECK(found->lights[k].irradiance == all.lights[k].irradiance);
+    }
 }
