@@ -160,9 +160,11 @@ std::uint8_t srgb_byte(float linear) {
     return table.of(linear);
 }
 
-std::string png_of(int width, int height, const std::vector<std::uint8_t>& rgb) {
+std::string png_of(int width, int height, const std::vector<std::uint8_t>& bytes,
+                   int bytes_per_pixel) {
     std::string file;
-    if (!stbi_write_png_to_func(append, &file, width, height, 3, rgb.data(), 3 * width))
+    if (!stbi_write_png_to_func(append, &file, width, height, bytes_per_pixel, bytes.data(),
+                                bytes_per_pixel * width))
         throw std::bad_alloc();
     return file;
 }

@@ -53,9 +53,10 @@ struct Image {
 /// nothing is emitted.
 [[nodiscard]] double auto_exposure(const Image& image, const Image& emission = {});
 
-/// Returns the bytes of a PNG file of three bytes a pixel, row by row from the top left. Throws
-/// std::bad_alloc.
-[[nodiscard]] std::string png_of(int width, int height, const std::vector<std::uint8_t>& rgb);
+/// Returns the bytes of a PNG file of three bytes a pixel, or four with alpha, row by row from the
+/// top left. Throws std::bad_alloc.
+[[nodiscard]] std::string png_of(int width, int height, const std::vector<std::uint8_t>& bytes,
+                                 int bytes_per_pixel = 3);
 
 /// Writes 8 bits per channel through the sRGB curve, as `display` shows the light. Where the
 /// provenance is known, the file has tEXt chunks Software, Command and Seed. Throws OutputError.
