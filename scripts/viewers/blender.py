@@ -1,7 +1,8 @@
 """Renders what was baked by Blender and compares it with hemilux's own picture; check.sh runs it:
 blender --background --factory-startup --python blender.py -- vertices|lightmap EX,EY,EZ,TX,TY,TZ,FOV
-blender --background --factory-startup --python blender.py -- baked
-The first shows scene.glb, the second lit.glb, whose materials keep their textures and whose camera is that of the file."""
+blender --background --factory-startup --python blender.py -- baked|shown
+The first shows scene.glb, the second lit.glb, whose materials keep their textures and whose camera is that of the file,
+or shown.glb as it is imported."""
 import json
 import math
 import os
@@ -102,7 +103,7 @@ def pixels(path):
 
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
-bpy.ops.import_scene.gltf(filepath="lit.glb" if what == "baked" else "scene.glb")
+bpy.ops.import_scene.gltf(filepath={"baked": "lit.glb", "shown": "shown.glb"}.get(what, "scene.glb"))
 scene = bpy.context.scene
 scene.camera = add_camera() if numbers else next(o for o in bpy.data.objects if o.type == "CAMERA")
 if what == "lightmap":
@@ -117,11 +118,21 @@ scene.cycles.pixel_filter_type = "BOX"
 scene.cycles.use_denoising = False
 scene.render.resolution_x, scene.render.resolution_y = width, height
 scene.render.resolution_percentage = 100
-scene.view_settings.view_transform = "Raw"
-scene.render.image_settings.file_format = "OPEN_EXR"
-scene.render.image_settings.color_depth = "32"
-scene.render.filepath = os.path.abspath("blender.exr")
+if what == "shown":
+    scene.view_settings.view_transform = "Standard"
+    scene.render.image_settings.file_format = "PNG"
+    scene.render.filepath = os.path.abspath("blender.png")
+else:
+    scene.view_settings.view_transform = "Raw"
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.image_settings.color_depth = "32"
+    scene.render.filepath = os.path.abspath("blender.exr")
 bpy.ops.render.render(write_still=True)
+
+if what == "shown":
+    gaps = [abs(a - b) for a, b in zip(pixels("blender.png"), pixels("shown.png"))]
+    print(f"shown: mean difference {255 * sum(gaps) / len(gaps):.2f} of 255")
+    sys.exit()
 
 if what == "baked":  # without a limit, as pictures in W/m2
     shown, own = pixels("blender.exr"), pixels("room.hdr")

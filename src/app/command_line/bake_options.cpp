@@ -19,7 +19,7 @@ namespace {
 constexpr const char* bake_examples = R"(Examples:
   hemilux bake room.glb -o lit.glb
   hemilux bake room.glb -o lit.glb --lightmap 2048 --error 1%
-  hemilux bake room.gltf -o preview.glb --bind unlit
+  hemilux bake room.gltf -o engine.glb --bind lightmap
   hemilux bake room.obj -o lit.obj --sky 1
   hemilux bake room.glb -o ao.glb --bake ao --ao-distance 0.5
 )";
@@ -63,14 +63,17 @@ void add_light_options(Command command, SolveSettings& settings,
                      [given](Kind value) { given->kind = value; });
     add_choice<Binding>(
         command, "--bind",
-        {{Binding::lightmap, "lightmap"},
+        {{Binding::lit, "lit"},
+         {Binding::lightmap, "lightmap"},
          {Binding::unlit, "unlit"},
          {Binding::occlusion, "occlusion"},
          {Binding::texture, "texture"}},
-        "how materials refer to the light: lightmap: by MOZ_lightmap; unlit: as an unlit base "
-        "colour that any viewer shows; occlusion: as occlusionTexture, which dims the light from "
-        "all around in viewers; texture: not at all [lightmap; occlusion for --bake ao; texture "
-        "for .obj]",
+        "how materials refer to the light: lit: any viewer shows them as they are lit, textures "
+        "times light, and those of the file are a variant with MOZ_lightmap; lightmap: by "
+        "MOZ_lightmap; unlit: as an unlit base colour, as coarse as its texels; occlusion: as "
+        "occlusionTexture, which dims the light from all around in viewers; texture: not at all "
+        "[lit; lightmap for --bake indirect, unlit for radiosity, occlusion for ao; texture for "
+        ".obj]",
         [given](Binding value) { given->binding = value; });
     add_choice(
         command, "--normals", settings.file_bake.smooth, {{false, "facet"}, {true, "smooth"}},
@@ -90,19 +93,24 @@ void settle_light(const GivenLight& given, SolveSettings& settings) {
                                                                                 : Kind::irradiance);
     file.occlusion = kind == Kind::occlusion;
     const Binding usual = is_obj(settings.scene.path) ? Binding::texture
-                          : file.occlusion            ? Binding::occlusion
-                                                      : Binding::lightmap;
+                          : kind == Kind::occlusion   ? Binding::occlusion
+                          : kind == Kind::radiosity   ? Binding::unlit
+                          : kind == Kind::indirect    ? Binding::lightmap
+                                                      : Binding::lit;
     file.binding = given.binding.value_or(usual);
     settings.bake = kind == Kind::radiosity  ? Bake::radiosity
                     : kind == Kind::indirect ? Bake::indirect
                                              : Bake::irradiance;
-    if (file.occlusion && (file.binding == Binding::lightmap || file.binding == Binding::unlit))
+    if (file.occlusion && file.binding != Binding::occlusion && file.binding != Binding::texture)
         throw UsageError("--bake ao is no light; it needs --bind occlusion or --bind texture");
     if (file.binding == Binding::occlusion && !file.occlusion)
         throw UsageError("--bind occlusion is for --bake ao");
     if (file.binding == Binding::lightmap && settings.bake == Bake::radiosity)
         throw UsageError("--bake radiosity has the colours of surfaces in it, which viewers of "
                          "lightmaps multiply by; add --bind unlit or --bind texture");
+    if (file.binding == Binding::lit && settings.bake != Bake::irradiance)
+        throw UsageError("--bind lit shows textures times what arrives; it needs --bake "
+                         "irradiance");
     if (file.binding == Binding::unlit && settings.bake != Bake::radiosity)
         throw UsageError("--bind unlit shows what surfaces send; it needs --bake radiosity");
     if (file.occlusion_distance && !file.occlusion)
@@ -120,7 +128,7 @@ void add_place_options(Command command, SolveSettings& settings) {
                    bake.new_set = !choice.set;
                });
     const Option size = add_whole<int>(command, "--lightmap", settings.lightmap, 16,
-                                       SolveSettings::max_lightmap, "texels along a side [1024]");
+                                       SolveSettings::max_lightmap, "texels along a side [by the faces and their area, 128 to 2048]");
     add_number(command, "--texels-per-metre", "X", bake.texels_per_metre, positive,
                "as many texels as that needs, in an atlas of our own")
         .excludes(size);
@@ -162,11 +170,7 @@ Command add_bake_command(Arguments& program, SolveSettings& settings) {
     add_layers_option(outputs, settings.layers);
     add_exposure_options(outputs, settings.view);
     add_verbosity_options(command, settings.verbosity);
-    command.after_parsing([&settings, given] {
-        settle_light(*given, settings);
-        if (!settings.lightmap)
-            settings.lightmap = FileBakeSettings::default_size;
-    });
+    command.after_parsing([&settings, given] { settle_light(*given, settings); });
     command.call_often_used(std::to_array({"--output", "--error", "--time", "--lightmap", "--bind",
                                            "--sky", "--sun", "--light", "--threads"}));
     command.end_help_with(std::string(bake_examples) + exit_codes);

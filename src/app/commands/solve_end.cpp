@@ -1,11 +1,13 @@
 #include "app/commands/solve_end.h"
 
 #include "app/division/whole_error.h"
+#include "app/gathering/lit_file_output.h"
 #include "app/loading/sides.h"
 #include "app/running/unknown_groups.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/summary.h"
+#include "io/files/printable.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/solving/transport_figures.h"
 #include "radiosity/light/sides/light_paths.h"
@@ -144,6 +146,9 @@ int finish(const SolveSettings& settings, Results results, const WriteReport& of
     }
     log_line(settings.verbosity, Verbosity::normal, time_text(results.statistics));
     report.log(settings.verbosity);
+    if (const std::string how = how_to_look(settings, results.file_lightmap);
+        !how.empty() && report.failed.empty() && report.left_out.empty())
+        log_line(settings.verbosity, Verbosity::normal, single_line(how));
     if (interrupted || ends_early)
         log_line(settings.verbosity, Verbosity::quiet,
                  interruption_text(results.solution.steps, !report.written.empty()));

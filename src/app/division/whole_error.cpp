@@ -40,8 +40,8 @@ void enter(Statistics& statistics, const DivisionError& of_patches, bool divide_
 } // namespace
 
 double error_of_gathered(const SolveSettings& settings) {
-    constexpr double usual = .02;
-    return settings.stop.error.value_or(usual);
+    constexpr double usual = .02, usual_of_bake = .05;
+    return settings.stop.error.value_or(settings.file_bake.asked ? usual_of_bake : usual);
 }
 
 double whole_error(const SolveSettings& settings) {

@@ -395,7 +395,7 @@ bool has_gathered_picture(const SolveSettings& settings) {
 } // namespace
 
 bool gathers_lightmap(const SolveSettings& settings) {
-    return settings.lightmap && settings.gather_pictures &&
+    return settings.writes_lightmap() && settings.gather_pictures &&
            std::ranges::any_of(settings.outputs, is_own_file, &Output::kind);
 }
 

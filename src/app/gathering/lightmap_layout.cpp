@@ -11,6 +11,7 @@
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/files/text_words.h"
+#include "io/lightmaps/lit_picture.h"
 #include "io/lightmaps/obj_places.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -34,6 +35,33 @@ constexpr std::size_t max_names = 4;
 
 /// The least lightmap of an object [texels along a side].
 constexpr int min_size = 16;
+
+/// Lightmaps of which no size was asked for have so many texels along a side.
+constexpr int min_usual_size = 128, max_usual_size = 2048;
+
+/// The largest picture of textures times light [texels along a side], unless the lightmap is
+/// larger.
+constexpr int max_shown_size = 2048;
+
+/// The area of these sides [m2].
+double area_of(const Mesh& mesh, std::span<const ChartSide> sides) {
+    double area = 0;
+    for (const ChartSide& side : sides)
+        area += glm::length(mesh.shape_of(side.facet).area_vector());
+    return area / (mesh.frame().scale * mesh.frame().scale);
+}
+
+/// Returns the size of a lightmap [texels along a side] of which none was asked for. Four times as
+/// many faces have twice as many texels, as shadows have as much more detail. Where that leaves
+/// texels larger than 5 cm, it is up to twice as large.
+int usual_size(const Mesh& mesh, std::span<const ChartSide> sides) {
+    constexpr double of_one_face = 92, per_metre = 20, filled = .8, rounded_to = 32;
+    const double by_faces = of_one_face * std::sqrt(std::sqrt(double(sides.size()))),
+                 by_area = per_metre * std::sqrt(area_of(mesh, sides) / filled);
+    const double size = std::max(by_faces, std::min(by_area, 2 * by_faces));
+    return std::clamp(static_cast<int>(rounded_to * std::ceil(size / rounded_to)), min_usual_size,
+                      max_usual_size);
+}
 
 /// Adds and logs what reading the file again has noticed, where reading it first has not warned of
 /// files outside of its folder.
@@ -115,7 +143,7 @@ class LayoutFinder {
     [[nodiscard]] ObjectLightmap find(gltf::LitSource& source, std::string name,
                                       std::vector<std::size_t> origins, int size);
     /// Returns the lightmap of an OBJ file.
-    [[nodiscard]] ObjectLightmap find(const LitObj& file, int size);
+    [[nodiscard]] ObjectLightmap find(const LitObj& file);
     /// Logs which objects have coordinates that the file has not, and why.
     void log_new_sets() const;
 
@@ -126,7 +154,8 @@ class LayoutFinder {
                              const FindPlaces& find_places);
     void make_own(ObjectLightmap& found, std::span<const ChartSide> sides, int size);
     [[nodiscard]] LightmapLayout own_layout(std::span<const ChartSide> sides, int size);
-    void add_to_memory(int size);
+    void add_to_memory(int size, int finer);
+    void set_finer(ObjectLightmap& found) const;
 
     const SolveSettings& settings_;
     const FileBakeSettings& bake_;
@@ -138,9 +167,11 @@ class LayoutFinder {
 };
 
 /// One lightmap at a time is gathered, and all are kept until they are written.
-void LayoutFinder::add_to_memory(int size) {
+void LayoutFinder::add_to_memory(int size, int finer) {
     const unsigned threads = settings_.options.threads;
     bytes_ += bytes_of_lightmap(size, false, threads);
+    if (bake_.binding == Binding::lit)
+        bytes_ += bytes_of_lightmap(size * finer, false, threads);
     largest_ = std::max(largest_, size);
     const double gathered =
         bytes_of_lightmap(largest_, true, threads) - bytes_of_lightmap(largest_, false, threads);
@@ -152,8 +183,17 @@ void LayoutFinder::add_to_memory(int size) {
                                  " needs more memory than --memory allows");
 }
 
+/// Textures keep their texels in the picture that is shown, as far as it has room.
+void LayoutFinder::set_finer(ObjectLightmap& found) const {
+    if (bake_.binding != Binding::lit)
+        return;
+    const int most = std::max(1, max_shown_size / found.layout.size);
+    found.finer = static_cast<int>(std::clamp(
+        std::ceil(texture_density(mesh_, found.layout.triangles)), 1.0, double(most)));
+}
+
 LightmapLayout LayoutFinder::own_layout(std::span<const ChartSide> sides, int size) {
-    const int most = settings_.lightmap.value_or(FileBakeSettings::default_size);
+    const int most = settings_.lightmap.value_or(max_usual_size);
     AtlasOptions options{.margin = bake_.margin, .max_size = SolveSettings::max_lightmap};
     if (bake_.texels_per_metre)
         options.density = *bake_.texels_per_metre / mesh_.frame().scale;
@@ -193,13 +233,14 @@ ObjectLightmap LayoutFinder::find(gltf::LitSource& source, std::string name,
     return found;
 }
 
-ObjectLightmap LayoutFinder::find(const LitObj& file, int size) {
+ObjectLightmap LayoutFinder::find(const LitObj& file) {
     ObjectLightmap found;
     std::vector<ChartSide> sides;
     const std::vector<Facet>& facets = mesh_.scene().facets;
     for (std::uint32_t f = 0; f < facets.size(); ++f)
         if (facets[f].face < file.faces().size()) // others are of emitters that were added
             sides.push_back({f, false});
+    const int size = settings_.lightmap.value_or(usual_size(mesh_, sides));
     if (bake_.set.value_or(0) > 0)
         throw InputError(file.path(), "an OBJ file has one set of texture coordinates; "
                                       "--lightmap-uv 0 takes that, and new an atlas");
@@ -219,7 +260,8 @@ bool LayoutFinder::takes(ObjectLightmap& found, const std::string& coordinates, 
     found.layout = {{}, size, bake_.margin};
     std::string fault = fault_of(find_places(), mesh_, size, found.layout.triangles);
     if (fault.empty()) {
-        add_to_memory(size);
+        set_finer(found);
+        add_to_memory(size, found.finer);
         return true;
     }
     fault = coordinates + " of the file cannot be used, as " + fault;
@@ -234,7 +276,8 @@ void LayoutFinder::make_own(ObjectLightmap& found, std::span<const ChartSide> si
     found.is_new = true;
     new_sets_.push_back(found.name);
     found.layout = own_layout(sides, size);
-    add_to_memory(found.layout.size);
+    set_finer(found);
+    add_to_memory(found.layout.size, found.finer);
 }
 
 void LayoutFinder::log_new_sets() const {
@@ -278,7 +321,7 @@ void check_unchanged(const LitObj& file, const Mesh& mesh) {
     }
 }
 
-FileLightmap lightmap_of_obj(const SolveSettings& settings, const Mesh& mesh, int size,
+FileLightmap lightmap_of_obj(const SolveSettings& settings, const Mesh& mesh,
                              std::vector<std::string>& warnings) {
     const std::string& path = settings.scene.path;
     FileLightmap found;
@@ -297,7 +340,7 @@ FileLightmap lightmap_of_obj(const SolveSettings& settings, const Mesh& mesh, in
     if (settings.file_bake.smooth)
         found.normals = smooth_normals(settings, normals_of_obj(*found.obj, mesh), warnings);
     LayoutFinder finder(settings, mesh);
-    found.parts.push_back(finder.find(*found.obj, size));
+    found.parts.push_back(finder.find(*found.obj));
     finder.log_new_sets();
     if (found.parts.front().is_new && !found.obj->places().empty()) {
         warnings.push_back(path + ": faces refer to the atlas in place of the vt of the file, by "
@@ -348,9 +391,8 @@ FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
                               std::vector<std::string>& warnings) {
     const FileBakeSettings& bake = settings.file_bake;
     const std::string& path = settings.scene.path;
-    const int size = settings.lightmap.value_or(FileBakeSettings::default_size);
     if (is_obj(path))
-        return lightmap_of_obj(settings, mesh, size, warnings);
+        return lightmap_of_obj(settings, mesh, warnings);
     FileLightmap found;
     found.source =
         std::make_unique<gltf::LitSource>(path, memory_guard(path, settings.scene.memory),
@@ -364,15 +406,21 @@ FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
         found.normals =
             smooth_normals(settings, gltf::normals_of_file(*found.source, mesh), warnings);
     LayoutFinder finder(settings, mesh);
+    std::vector<std::size_t> all(found.source->origins().size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const std::vector<ChartSide> sides = fronts_of_file(mesh, *found.source, all);
+    int size = settings.lightmap.value_or(usual_size(mesh, sides));
     if (!bake.per_object) {
-        std::vector<std::size_t> all(found.source->origins().size());
-        std::iota(all.begin(), all.end(), std::size_t{0});
         found.parts.push_back(finder.find(*found.source, "", std::move(all), size));
     } else {
         const std::vector<ObjectOfFile> objects = objects_of(*found.source, mesh);
-        double largest = 0;
-        for (const ObjectOfFile& object : objects)
+        double largest = 0, whole = 0;
+        for (const ObjectOfFile& object : objects) {
             largest = std::max(largest, object.area);
+            whole += object.area;
+        }
+        if (!settings.lightmap) // that of all objects, as dense
+            size = std::max(static_cast<int>(size * std::sqrt(largest / whole)), min_size);
         for (const ObjectOfFile& object : objects) {
             const double side = std::ceil(size * std::sqrt(object.area / largest));
             found.parts.push_back(finder.find(*found.source, object.name, object.origins,

@@ -28,6 +28,7 @@ struct ObjectLightmap {
     std::string name = {};                 ///< ObjectOfFile::name; empty: of all objects
     std::vector<std::size_t> origins = {}; ///< numbers of LitSource::origins()
     LightmapLayout layout = {};
+    int finer = 1;       ///< texels of the picture that viewers show, per texel, along a side
     std::size_t set = 0; ///< of texture coordinates
     bool is_new = false; ///< the set is not of the file
 };

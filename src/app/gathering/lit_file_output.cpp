@@ -4,7 +4,9 @@
 #include "geometry/elementary.h"
 #include "io/files/atomic_file.h"
 #include "io/gltf/lit_file.h"
+#include "io/lightmaps/lit_picture.h"
 #include "io/lightmaps/obj_places.h"
+#include "parallel/workers.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
@@ -46,29 +48,33 @@ std::vector<std::uint8_t> linear_bytes(const Image& lightmap, float largest) {
     return bytes;
 }
 
-std::vector<std::uint8_t> shown_bytes(const Image& lightmap, const Display& display) {
+/// Returns the bytes of a PNG file of light as screens show it, with alpha where it is given.
+std::string shown_png(const Image& light, const Display& display, std::span<const float> alpha) {
     std::vector<std::uint8_t> bytes;
-    bytes.reserve(3 * lightmap.pixels.size());
-    for (const glm::vec3& texel : lightmap.pixels) {
-        const glm::vec3 shown = display(texel);
+    bytes.reserve((alpha.empty() ? 3 : 4) * light.pixels.size());
+    for (std::size_t k = 0; k < light.pixels.size(); ++k) {
+        const glm::vec3 shown = display(light.pixels[k]);
         for (int c = 0; c < 3; ++c)
             bytes.push_back(srgb_byte(shown[c]));
+        if (!alpha.empty())
+            bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * alpha[k])));
     }
-    return bytes;
+    return png_of(light.width, light.height, bytes, alpha.empty() ? 3 : 4);
 }
 
-} // namespace
-
-namespace {
-
-/// Returns the exposure for all lightmaps together.
-double exposure_of(std::span<const Image> lightmaps) {
-    if (lightmaps.size() == 1)
-        return auto_exposure(lightmaps.front());
-    Image all;
-    for (const Image& lightmap : lightmaps)
-        all.pixels.insert(all.pixels.end(), lightmap.pixels.begin(), lightmap.pixels.end());
-    return auto_exposure(all);
+/// Returns the exposure for all pictures together, of which some parts are emitted.
+double exposure_of(std::span<const Image> lights, std::span<const LitPicture> lit) {
+    Image all, emitted;
+    for (const Image& light : lights)
+        all.pixels.insert(all.pixels.end(), light.pixels.begin(), light.pixels.end());
+    for (const LitPicture& picture : lit) {
+        all.pixels.insert(all.pixels.end(), picture.light.pixels.begin(),
+                          picture.light.pixels.end());
+        emitted.pixels.insert(emitted.pixels.end(), picture.emitted.pixels.begin(),
+                              picture.emitted.pixels.end());
+        emitted.pixels.resize(all.pixels.size());
+    }
+    return auto_exposure(all, emitted);
 }
 
 /// Returns the triangles of a layout with places in [0,1].
@@ -80,23 +86,14 @@ std::vector<PlacedTriangle> in_unit_square(const LightmapLayout& layout) {
     return triangles;
 }
 
-LightmapPicture picture_of(const ObjectLightmap& part, const Image& lightmap, const Mesh& mesh,
-                           gltf::LitSource& source, const SolveSettings& settings,
-                           const Display& display) {
-    const bool is_shown = settings.file_bake.binding == Binding::unlit;
-    const float largest = settings.file_bake.occlusion ? 1 : largest_shown(lightmap);
-    LightmapPicture picture{
-        .png = png_of(lightmap.width, lightmap.height,
-                      is_shown ? shown_bytes(lightmap, display) : linear_bytes(lightmap, largest)),
-        .origins = part.origins,
-        .intensity = is_shown ? 1 : double(largest),
-        .set = part.set};
+/// Returns the picture of an object without that of its light as it is shown.
+LightmapPicture picture_of(const ObjectLightmap& part, const Mesh& mesh, gltf::LitSource& source) {
+    LightmapPicture picture{.origins = part.origins, .set = part.set};
     if (!part.name.empty())
         picture.name += " " + part.name;
-    if (!part.is_new)
-        return picture;
-    picture.coordinates =
-        gltf::atlas_coordinates(source, mesh, in_unit_square(part.layout), part.origins);
+    if (part.is_new)
+        picture.coordinates =
+            gltf::atlas_coordinates(source, mesh, in_unit_square(part.layout), part.origins);
     return picture;
 }
 
@@ -113,19 +110,68 @@ void write_lit_file(const SolveSettings& settings, const std::string& path, cons
                     const FileLightmap& file, std::span<const Image> lightmaps) {
     if (file.obj)
         return write_lit_obj(path, mesh, *file.obj, file.parts.front());
-    const bool is_occlusion = settings.file_bake.occlusion;
+    const FileBakeSettings& bake = settings.file_bake;
+    const Workers workers(settings.options.threads);
+    std::vector<LitPicture> lit;
+    for (std::size_t k = 0; bake.binding == Binding::lit && k < file.parts.size(); ++k) {
+        const auto& [name, origins, layout, finer, set, is_new] = file.parts[k];
+        lit.push_back(
+            lit_picture(mesh, layout.triangles, lightmaps[k], finer, layout.margin, workers));
+    }
     Display display = display_of(settings.view);
-    if (!settings.view.exposure && !is_occlusion)
-        display.exposure = exposure_of(lightmaps) * elementary::exp2(settings.view.stops);
+    if (!settings.view.exposure && !bake.occlusion)
+        display.exposure = exposure_of(lit.empty() ? lightmaps : std::span<const Image>(), lit) *
+                           elementary::exp2(settings.view.stops);
     LightmapOfFile of_file{.pictures = {},
-                           .binding = settings.file_bake.binding,
+                           .binding = bake.binding,
                            .command = settings.from.command,
-                           .bake = is_occlusion ? "ao" : name_of(settings.bake),
+                           .bake = bake.occlusion ? "ao" : name_of(settings.bake),
                            .exposure = display.exposure};
-    for (std::size_t k = 0; k < file.parts.size(); ++k)
-        of_file.pictures.push_back(
-            picture_of(file.parts[k], lightmaps[k], mesh, *file.source, settings, display));
+    for (std::size_t k = 0; k < file.parts.size(); ++k) {
+        const Image& lightmap = lightmaps[k];
+        LightmapPicture& picture =
+            of_file.pictures.emplace_back(picture_of(file.parts[k], mesh, *file.source));
+        if (bake.binding == Binding::unlit) {
+            picture.png = shown_png(lightmap, display, {});
+            continue;
+        }
+        const float largest = bake.occlusion ? 1 : largest_shown(lightmap);
+        picture.intensity = double(largest);
+        picture.png = png_of(lightmap.width, lightmap.height, linear_bytes(lightmap, largest));
+        if (bake.binding == Binding::lit)
+            picture.shown = shown_png(lit[k].light, display, lit[k].cover);
+    }
     write_lit_glb(path, *file.source, of_file);
+}
+
+std::string how_to_look(const SolveSettings& settings, const FileLightmap& file) {
+    if (file.parts.empty())
+        return "";
+    const std::string& path = settings.outputs.front().path;
+    const std::string light =
+        file.parts.size() > 1 ? "the .lightmap.exr files" : lightmap_paths(path, file).front();
+    if (file.obj)
+        return "engines take the light from " + light + ", which lies on the vt of " + path;
+    std::string of_set = ", TEXCOORD_" + std::to_string(file.parts.front().set);
+    if (std::ranges::any_of(file.parts, [&](const ObjectLightmap& part) {
+            return part.set != file.parts.front().set;
+        }))
+        of_set.clear();
+    switch (settings.file_bake.binding) {
+    case Binding::lit:
+        return "to see it, drag " + path + " into a glTF viewer or import it in Blender; engines " +
+               "take the light from " + light + of_set + ", or the material variant 'lightmap'";
+    case Binding::unlit:
+        return "to see it, drag " + path + " into a glTF viewer or import it in Blender";
+    case Binding::lightmap:
+        return "viewers without MOZ_lightmap show " + path + " as it was before (--bind lit shows " +
+               "it lit); engines take the light from " + light + of_set;
+    case Binding::texture:
+        return "engines take the light from " + light + of_set;
+    case Binding::occlusion:
+        return "";
+    }
+    return "";
 }
 
 std::vector<std::string> lightmap_paths(const std::string& glb, const FileLightmap& file) {

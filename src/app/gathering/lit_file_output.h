@@ -19,4 +19,7 @@ void write_lit_file(const SolveSettings& settings, const std::string& path, cons
 [[nodiscard]] std::vector<std::string> lightmap_paths(const std::string& glb,
                                                       const FileLightmap& file);
 
+/// Returns how one looks at what was written, with its light; empty where that goes without saying.
+[[nodiscard]] std::string how_to_look(const SolveSettings& settings, const FileLightmap& file);
+
 } // namespace hemilux

@@ -27,13 +27,13 @@ using RoleAndPath = std::pair<std::string, std::string>;
 std::vector<std::string> paths_of_lightmaps(const SolveSettings& settings) {
     std::vector<std::string> paths;
     for (const Output& output : settings.outputs)
-        if (settings.lightmap && is_own_file(output.kind)) {
+        if (settings.writes_lightmap() && is_own_file(output.kind)) {
             if (output.path == standard_output)
                 throw UsageError("a lightmap takes its name from the .glb file; -o -.glb has none");
             if (!settings.file_bake.per_object) // else check_object_files() knows them
                 paths.push_back(lightmap_path(output.path));
         }
-    if (settings.lightmap && paths.empty() && !settings.file_bake.per_object)
+    if (settings.writes_lightmap() && paths.empty() && !settings.file_bake.per_object)
         throw UsageError("--lightmap is for .glb files; add -o scene.glb");
     return paths;
 }

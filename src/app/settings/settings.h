@@ -103,12 +103,12 @@ struct FileBakeSettings {
     bool new_set = false;           ///< --lightmap-uv new: an atlas of our own in any case
     std::optional<double> texels_per_metre;
     int margin = 2; ///< texels around charts that have their light too
-    Binding binding = Binding::lightmap;
+    Binding binding = Binding::lit;
     bool per_object = false; ///< a lightmap for each object
     bool smooth = false;     ///< --normals smooth: texels are gathered around those of the file
     bool occlusion = false;  ///< --bake ao in place of SolveSettings::bake
     std::optional<double> occlusion_distance; ///< [m], beyond which nothing blocks
-    static constexpr int default_size = 1024, max_margin = 64;
+    static constexpr int max_margin = 64;
 };
 
 struct SolveSettings {
@@ -127,8 +127,9 @@ struct SolveSettings {
     ViewSettings view;
     std::vector<Output> outputs;
     Bake bake = Bake::radiosity; ///< what mesh files hold
-    std::optional<int> lightmap; ///< texels along a side, beside .glb files
+    std::optional<int> lightmap; ///< texels along a side, beside .glb files; `bake` has a default
     FileBakeSettings file_bake;
+    [[nodiscard]] bool writes_lightmap() const { return lightmap || file_bake.asked; }
     PlyColours ply_colours = PlyColours::linear; ///< what .ply files hold
     Provenance from;                             ///< provenance of the files
     std::vector<GivenOption> given;              ///< options and their values

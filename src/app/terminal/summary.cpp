@@ -34,6 +34,15 @@ std::string uncertainty_text(const Statistics& s) {
                : "";
 }
 
+/// Returns how far off the light is from place to place.
+std::string local_text(double error) {
+    constexpr double hardly_known = 1;
+    return error > hardly_known
+               ? "; more than 5 of 100 places are so dark that they are off by more than their own "
+                 "light"
+               : ", and within " + percent(error) + " of the light there in 95 of 100 places";
+}
+
 /// Returns the estimated error, of what, and what the other part of it is.
 std::string errors_text(const Statistics& s) {
     if (!std::isfinite(s.estimated_error) && std::isfinite(s.error_sampling) &&
@@ -57,9 +66,8 @@ std::string errors_text(const Statistics& s) {
         return error;
     if (s.estimated_error_of == ErrorOf::gathered)
         return error + ", surely at most " + percent(s.error_bound) +
-               ", of gathered light, and within " + percent(s.error_local) +
-               " of the light there in 95 of 100 places; it reads patches of sampling error " +
-               percent(s.error_sampling);
+               ", of gathered light" + local_text(s.error_local) +
+               "; it reads patches of sampling error " + percent(s.error_sampling);
     if (!std::isfinite(s.error_division))
         return error + ", of the patches' mean light; --whole-error finds what they leave out";
     const std::string division =

@@ -58,10 +58,10 @@ void warn_of_unused(const SolveSettings& settings) {
         {"--exposure", pictures || meshes || page, "pictures, meshes and --report"},
         {"--tone", pictures || meshes, "pictures and meshes"},
         {"--gather",
-         ((pictures || settings.lightmap) && settings.gather_pictures) ||
+         ((pictures || settings.writes_lightmap()) && settings.gather_pictures) ||
              !settings.points.path.empty() || (meshes && settings.bake == Bake::indirect),
          "pictures without --no-gather, --lightmap, --points and --bake indirect"},
-        {"--no-gather", pictures || settings.lightmap, "pictures and --lightmap"}};
+        {"--no-gather", pictures || settings.writes_lightmap(), "pictures and --lightmap"}};
     uses.insert(uses.end(), others.begin(), others.end());
     warn_of_unused(settings.given, uses, settings.verbosity);
 }

@@ -6,6 +6,7 @@
 #include "io/gltf/instances.h"
 #include "io/gltf/scene_meshes.h"
 #include "io/meshes/glb_container.h"
+#include "radiosity/paper/scene/scene.h"
 
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr int vertex_target = 34962, index_target = 34963; // names of OpenGL's constants
 constexpr const char* instancing_extension = "EXT_mesh_gpu_instancing";
+constexpr const char* variants_extension = "KHR_materials_variants";
+constexpr const char* unlit_extension = "KHR_materials_unlit";
+constexpr const char* lightmap_extension = "MOZ_lightmap";
 constexpr int float_component = 5126, uint_component = 5125;
 constexpr int linear_filter = 9729, clamp_to_edge = 33071, triangles_mode = 4;
 
@@ -41,6 +45,16 @@ std::optional<std::size_t> whole_number(const Json& value) {
 
 std::optional<std::size_t> whole_of(const Json& object, const char* key) {
     return object.is_object() && object.contains(key) ? whole_number(object[key]) : std::nullopt;
+}
+
+/// Returns a material that says what is solved for a primitive without one.
+Json default_material() {
+    const Vec3 grey = Material().reflectance;
+    return {{"name", "default"},
+            {"pbrMetallicRoughness",
+             {{"baseColorFactor", {grey.r, grey.g, grey.b, 1}},
+              {"metallicFactor", 0},
+              {"roughnessFactor", 1}}}};
 }
 
 class Writer {
@@ -68,9 +82,10 @@ class Writer {
         }
         forget_instancing();
         for (const LightmapPicture& picture : lightmap_.pictures) {
+            const std::optional<std::size_t> shown = add_shown(picture);
             const std::size_t texture = add_texture(picture);
             if (lightmap_.binding != Binding::texture)
-                bind(texture, picture);
+                bind_primitives(texture, shown, picture);
         }
         root_["buffers"][0]["byteLength"] = binary_.size();
     }
@@ -78,17 +93,28 @@ class Writer {
 
   private:
     /// Returns an array of the document, which is made where there is none.
-    Json& array_of(const char* name);
+    Json& array_of(const char* name) { return array_in(root_, name, ""); }
+    /// Returns an array of an object that stands at `place`.
+    Json& array_in(Json& object, const char* name, const std::string& place) const;
+    /// Returns an extension of an object, which is made where there is none.
+    Json& extension_of(Json& object, const char* name, const std::string& place) const;
     void use_extension(const char* name);
     /// Returns the number of an accessor that an attribute names.
     [[nodiscard]] std::size_t accessor_of(const Json& attribute, const PrimitiveOrigin& of) const;
     void join_buffers();
     void embed_pictures();
     std::size_t add_view(std::string_view bytes);
+    std::size_t add_texture(const std::string& name, std::string_view png, Json extras);
     std::size_t add_texture(const LightmapPicture& picture);
-    void bind(std::size_t texture, const LightmapPicture& picture);
+    std::optional<std::size_t> add_shown(const LightmapPicture& picture);
+    void bind_primitives(std::size_t texture, std::optional<std::size_t> shown,
+                         const LightmapPicture& picture);
     void bind(Json& material, std::size_t texture, const LightmapPicture& picture) const;
+    [[nodiscard]] bool is_unlit(const Json& primitive) const;
     [[nodiscard]] std::size_t own_material(const Json& primitive, const LightmapPicture& picture);
+    [[nodiscard]] std::size_t lit_material(std::size_t own, std::size_t shown,
+                                           const LightmapPicture& picture);
+    void add_variants(Json& primitive, std::size_t lit, std::size_t own, const std::string& place);
     void add_coordinates(const AtlasCoordinates& coordinates, std::size_t of_set);
     Json& primitive_of(const PrimitiveOrigin& origin);
     void give_own_mesh(const PrimitiveOrigin& origin);
@@ -114,15 +140,32 @@ class Writer {
         std::pair<std::optional<std::size_t>, const LightmapPicture*>; ///< none: the default
     std::set<const Json*> bound_;            ///< primitives that have their materials
     std::map<Lit, std::size_t> material_of_; ///< where it is another one than in the file
+    std::map<std::size_t, std::size_t> lit_of_;  ///< material that shows another one lit
+    std::optional<std::size_t> first_variant_; ///< its number: lit; the next one is as in the file
+    std::optional<std::size_t> sampler_;
 };
 
-Json& Writer::array_of(const char* name) {
-    Json& member = root_[name];
+Json& Writer::array_in(Json& object, const char* name, const std::string& place) const {
+    Json& member = object[name];
     if (member.is_null())
         member = Json::array();
     if (!member.is_array())
-        throw InputError(source_.path(), std::string("/") + name + ": expected an array");
+        throw InputError(source_.path(), place + "/" + name + ": expected an array");
     return member;
+}
+
+Json& Writer::extension_of(Json& object, const char* name, const std::string& place) const {
+    Json* member = &object;
+    std::string path = place;
+    for (const char* const key : {"extensions", name}) {
+        member = &(*member)[key];
+        path += std::string("/") + key;
+        if (member->is_null())
+            *member = Json::object();
+        if (!member->is_object())
+            throw InputError(source_.path(), path + ": expected an object");
+    }
+    return *member;
 }
 
 void Writer::use_extension(const char* name) {
@@ -201,33 +244,46 @@ std::size_t Writer::add_view(std::string_view bytes) {
     return views.size() - 1;
 }
 
-std::size_t Writer::add_texture(const LightmapPicture& picture) {
-    const std::size_t view = add_view(picture.png);
+std::size_t Writer::add_texture(const std::string& name, std::string_view png, Json extras) {
+    const std::size_t view = add_view(png);
     Json& images = array_of("images");
-    images.push_back({{"name", picture.name}, {"mimeType", "image/png"}, {"bufferView", view}});
-    Json& samplers = array_of("samplers");
-    if (&picture == &lightmap_.pictures.front())
+    images.push_back({{"name", name}, {"mimeType", "image/png"}, {"bufferView", view}});
+    if (!sampler_) {
+        Json& samplers = array_of("samplers");
+        sampler_ = samplers.size();
         samplers.push_back({{"magFilter", linear_filter},
                             {"minFilter", linear_filter},
                             {"wrapS", clamp_to_edge},
                             {"wrapT", clamp_to_edge}});
+    }
     Json& textures = array_of("textures");
-    Json extras{{"bake", lightmap_.bake},
-                {"texCoord", picture.set},
-                {"intensity", picture.intensity},
-                {"exposure", lightmap_.exposure}};
+    extras["exposure"] = lightmap_.exposure;
     if (!lightmap_.command.empty())
         extras["command"] = lightmap_.command;
-    textures.push_back({{"name", picture.name},
-                        {"sampler", samplers.size() - 1},
+    textures.push_back({{"name", name},
+                        {"sampler", *sampler_},
                         {"source", images.size() - 1},
-                        {"extras", {{"hemilux", extras}}}});
+                        {"extras", {{"hemilux", std::move(extras)}}}});
     return textures.size() - 1;
+}
+
+std::size_t Writer::add_texture(const LightmapPicture& picture) {
+    return add_texture(picture.name, picture.png,
+                       {{"bake", lightmap_.bake},
+                        {"texCoord", picture.set},
+                        {"intensity", picture.intensity}});
+}
+
+std::optional<std::size_t> Writer::add_shown(const LightmapPicture& picture) {
+    if (lightmap_.binding != Binding::lit)
+        return std::nullopt;
+    return add_texture(picture.name + " times colours", picture.shown,
+                       {{"bake", "shown"}, {"texCoord", picture.set}});
 }
 
 /// Returns the material of a primitive whose light is in this picture. It is that of the file for
 /// the first picture that needs it, and a copy for each other one. A primitive without a material
-/// gets one that looks the same.
+/// gets what was solved in its place: the format's default is a metal.
 std::size_t Writer::own_material(const Json& primitive, const LightmapPicture& picture) {
     std::optional<std::size_t> of_file;
     if (primitive.contains("material"))
@@ -237,9 +293,59 @@ std::size_t Writer::own_material(const Json& primitive, const LightmapPicture& p
     Json& materials = array_of("materials");
     const auto [found, is_new] = material_of_.try_emplace({of_file, &picture}, materials.size());
     if (is_new)
-        materials.push_back(of_file ? materials_of_file_[*of_file]
-                                    : Json::object({{"name", "default"}}));
+        materials.push_back(of_file ? materials_of_file_[*of_file] : default_material());
     return found->second;
+}
+
+/// Returns the material that shows another one as it is lit. It has the other's alpha and sides.
+std::size_t Writer::lit_material(std::size_t own, std::size_t shown,
+                                 const LightmapPicture& picture) {
+    Json& materials = array_of("materials");
+    const auto [found, is_new] = lit_of_.try_emplace(own, materials.size());
+    if (!is_new)
+        return found->second;
+    const Json& of_file = materials[own];
+    const Json surface = of_file.value("pbrMetallicRoughness", Json::object());
+    Json factor = {1, 1, 1, 1};
+    if (surface.contains("baseColorFactor"))
+        factor[3] = surface["baseColorFactor"].at(3);
+    Json lit{{"name", of_file.value("name", "material") + " lit"},
+             {"pbrMetallicRoughness",
+              {{"baseColorTexture", {{"index", shown}, {"texCoord", picture.set}}},
+               {"baseColorFactor", std::move(factor)},
+               {"metallicFactor", 0},
+               {"roughnessFactor", 1}}},
+             {"extensions", {{unlit_extension, Json::object()}}}};
+    for (const char* const kept : {"alphaMode", "alphaCutoff", "doubleSided"})
+        if (of_file.contains(kept))
+            lit[kept] = of_file[kept];
+    materials.push_back(std::move(lit));
+    return found->second;
+}
+
+/// Lets a primitive have two materials, the first of which is shown unless another is chosen.
+void Writer::add_variants(Json& primitive, std::size_t lit, std::size_t own,
+                          const std::string& place) {
+    Json& variants = array_in(extension_of(root_, variants_extension, ""), "variants",
+                              std::string("/extensions/") + variants_extension);
+    if (!first_variant_) {
+        first_variant_ = variants.size();
+        variants.push_back({{"name", "lit"}});
+        variants.push_back({{"name", "lightmap"}});
+    }
+    Json& mappings =
+        array_in(extension_of(primitive, variants_extension, place), "mappings",
+                 place + "/extensions/" + variants_extension);
+    mappings.push_back({{"material", lit}, {"variants", {*first_variant_}}});
+    mappings.push_back({{"material", own}, {"variants", {*first_variant_ + 1}}});
+}
+
+/// Returns whether viewers show a primitive as it is, whatever light arrives.
+bool Writer::is_unlit(const Json& primitive) const {
+    if (!primitive.contains("material"))
+        return false;
+    const auto material = primitive["material"].get<std::size_t>();
+    return source_.document().materials[material].unlit;
 }
 
 void Writer::bind(Json& material, std::size_t texture, const LightmapPicture& picture) const {
@@ -252,14 +358,15 @@ void Writer::bind(Json& material, std::size_t texture, const LightmapPicture& pi
         for (const char* const lit : {"emissiveFactor", "emissiveTexture", "normalTexture",
                                       "occlusionTexture", "extensions"})
             material.erase(lit);
-        material["extensions"]["KHR_materials_unlit"] = Json::object();
+        material["extensions"][unlit_extension] = Json::object();
         return;
     }
     case Binding::occlusion:
         material["occlusionTexture"] = info;
         return;
+    case Binding::lit:
     case Binding::lightmap: {
-        Json& extension = material["extensions"]["MOZ_lightmap"];
+        Json& extension = material["extensions"][lightmap_extension];
         extension = info;
         extension["intensity"] = picture.intensity;
         return;
@@ -269,25 +376,40 @@ void Writer::bind(Json& material, std::size_t texture, const LightmapPicture& pi
     }
 }
 
-/// Binds the texture to the materials of the picture's primitives.
-void Writer::bind(std::size_t texture, const LightmapPicture& picture) {
+/// Binds the texture to the materials of the picture's primitives. What viewers show as it is stays
+/// so where others are shown as they are lit.
+void Writer::bind_primitives(std::size_t texture, std::optional<std::size_t> shown,
+                             const LightmapPicture& picture) {
     std::set<std::size_t> used;
+    bool any_lit = false;
     for (const std::size_t number : picture.origins) {
-        Json& primitive = primitive_of(source_.origins()[number]);
+        const PrimitiveOrigin& origin = source_.origins()[number];
+        Json& primitive = primitive_of(origin);
         if (!primitive["attributes"].contains("TEXCOORD_" + std::to_string(picture.set)))
             continue;
         // Nodes that share a mesh share its primitive, which has its new material already.
-        if (!bound_.insert(&primitive).second)
+        if (!bound_.insert(&primitive).second || (shown && is_unlit(primitive)))
             continue;
-        const std::size_t material = own_material(primitive, picture);
-        primitive["material"] = material;
-        used.insert(material);
+        const std::size_t own = own_material(primitive, picture);
+        primitive["material"] = own;
+        used.insert(own);
+        if (!shown)
+            continue;
+        primitive["material"] = lit_material(own, *shown, picture);
+        add_variants(primitive, primitive["material"], own,
+                     place_of(origin.mesh, origin.primitive));
+        any_lit = true;
     }
     for (const std::size_t m : used)
         bind(root_["materials"][m], texture, picture);
     if (used.empty() || lightmap_.binding == Binding::occlusion)
         return;
-    use_extension(lightmap_.binding == Binding::unlit ? "KHR_materials_unlit" : "MOZ_lightmap");
+    if (any_lit)
+        use_extension(variants_extension);
+    if (any_lit || lightmap_.binding == Binding::unlit)
+        use_extension(unlit_extension);
+    if (lightmap_.binding != Binding::unlit)
+        use_extension(lightmap_extension);
 }
 
 /// Returns the primitive that is written for an origin.

@@ -4,6 +4,9 @@
 // picture, its texture and sampler, one set of texture coordinates where the file has none for it,
 // and what binds the texture to materials.
 //
+// With Binding::lit primitives get materials of their own, which any viewer shows as they are lit.
+// Those of the file stay as another variant (KHR_materials_variants), with the lightmap.
+//
 // The result is a binary file that holds all buffers, and the pictures that lay beside the file.
 
 #include "io/gltf/binding.h"
@@ -18,6 +21,7 @@ namespace hemilux {
 struct LightmapPicture {
     std::string name = "lightmap"; ///< of its image and texture
     std::string png = {};
+    std::string shown = {}; ///< PNG: colours times light, as screens show them; of Binding::lit alone
     std::vector<std::size_t> origins = {}; ///< numbers of LitSource::origins() whose light it is
     double intensity = 1;                  ///< the irradiance of the largest number of the picture
     std::size_t set = 1;                   ///< of texture coordinates

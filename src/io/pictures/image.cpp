@@ -100,13 +100,14 @@ void add_chunk(std::string& file, std::string_view name, std::string_view conten
 
 /// Returns a PNG file whose rows are all differences from the one above: choosing among filters
 /// takes longer than all else.
-std::string quick_png(int width, int height, std::span<const std::uint8_t> rgb) {
+std::string quick_png(int width, int height, std::span<const std::uint8_t> pixels,
+                      int bytes_per_pixel) {
     constexpr unsigned char up = 2;
-    const auto row = 3 * static_cast<std::size_t>(width);
+    const auto row = static_cast<std::size_t>(bytes_per_pixel) * static_cast<std::size_t>(width);
     std::vector<unsigned char> bytes((row + 1) * static_cast<std::size_t>(height));
     for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
         unsigned char* const to = &bytes[y * (row + 1)];
-        const std::uint8_t* const from = &rgb[y * row];
+        const std::uint8_t* const from = &pixels[y * row];
         to[0] = up;
         for (std::size_t k = 0; k < row; ++k)
             to[k + 1] = static_cast<unsigned char>(from[k] - (y > 0 ? from[k - row] : 0));
@@ -115,7 +116,8 @@ std::string quick_png(int width, int height, std::span<const std::uint8_t> rgb) 
     for (const int size : {width, height})
         for (int shift = 24; shift >= 0; shift -= 8)
             header += static_cast<char>(size >> shift & 255);
-    header += std::string("\x08\x02\x00\x00\x00", 5); // three channels of 8 bits
+    constexpr char bits = 8, colours = 2, colours_and_alpha = 6;
+    header += {bits, bytes_per_pixel == 4 ? colours_and_alpha : colours, 0, 0, 0};
     std::string file = "\x89PNG\r\n\x1a\n";
     add_chunk(file, "IHDR", header);
     add_chunk(file, "IDAT", zlib_compressed(std::move(bytes), Compression::little));
@@ -232,12 +234,13 @@ std::uint8_t srgb_byte(float linear) {
 
 void compress_little_on(const std::atomic<bool>* flag) { hurry = flag; }
 
-std::string png_of(int width, int height, const std::vector<std::uint8_t>& rgb,
-                   Compression compression) {
+std::string png_of(int width, int height, const std::vector<std::uint8_t>& bytes,
+                   int bytes_per_pixel, Compression compression) {
     if (compression == Compression::little || is_in_a_hurry())
-        return quick_png(width, height, rgb);
+        return quick_png(width, height, bytes, bytes_per_pixel);
     std::string file;
-    if (!stbi_write_png_to_func(append, &file, width, height, 3, rgb.data(), 3 * width))
+    if (!stbi_write_png_to_func(append, &file, width, height, bytes_per_pixel, bytes.data(),
+                                bytes_per_pixel * width))
         throw std::bad_alloc();
     return file;
 }

@@ -62,9 +62,10 @@ void compress_little_on(const std::atomic<bool>* flag);
 /// This says how much time a file may take to be small.
 enum class Compression { usual, little };
 
-/// Returns the bytes of a PNG file of three bytes a pixel, row by row from the top left. Throws
-/// std::bad_alloc.
-[[nodiscard]] std::string png_of(int width, int height, const std::vector<std::uint8_t>& rgb,
+/// Returns the bytes of a PNG file of three bytes a pixel, or four with alpha, row by row from the
+/// top left. Throws std::bad_alloc.
+[[nodiscard]] std::string png_of(int width, int height, const std::vector<std::uint8_t>& bytes,
+                                 int bytes_per_pixel = 3,
                                  Compression compression = Compression::usual);
 
 /// Writes 8 bits per channel through the sRGB curve, as `display` shows the light. Where the

@@ -6,6 +6,7 @@
 #include "io/textures/picture_checks.h"
 #include "io/textures/webp.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -42,8 +43,8 @@ namespace {
 constexpr double max_texels = 1 << 26;
 /// The largest file [bytes]: more than the samples of so many texels take.
 constexpr std::uint64_t max_file = std::uint64_t{1} << 30;
-/// The memory per texel while a picture is decoded: the file's samples, and three bytes each.
-constexpr double bytes_per_texel = 12;
+/// The memory per texel while a picture is decoded: the file's samples, and four bytes each twice.
+constexpr double bytes_per_texel = 16;
 /// The bytes per texel of a buffer, for the largest samples.
 constexpr double bytes_unpacked_per_texel = 32;
 
@@ -101,13 +102,12 @@ Texture decode_texture(std::string_view bytes, const std::string& place) {
         return {width, height, decode_webp(bytes, {size.width, size.height}, place),
                 srgb_to_linear()};
     int channels = 0;
-    constexpr int rgb = 3;
     // A picture takes eight bytes a texel at the most, and one a row; buffers grow by doubling.
     max_bytes_unpacked =
         static_cast<std::size_t>(bytes_unpacked_per_texel * size.texels()) + (std::size_t{1} << 16);
     const std::unique_ptr<stbi_uc, decltype(&std::free)> pixels(
         stbi_load_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &size.width,
-                              &size.height, &channels, rgb),
+                              &size.height, &channels, STBI_rgb_alpha),
         &std::free);
     if (!pixels) {
         const std::string reason = stbi_failure_reason();
@@ -116,9 +116,19 @@ Texture decode_texture(std::string_view bytes, const std::string& place) {
             "expected a whole PNG, JPEG or TGA picture: " +
                 (reason == "outofmem" ? "its data unpack to more than its pixels take" : reason));
     }
-    const std::size_t count = std::size_t{rgb} * width * height;
-    return {width, height, std::vector<std::uint8_t>(pixels.get(), pixels.get() + count),
-            srgb_to_linear()};
+    std::vector<std::uint8_t> rgb, cover;
+    const std::size_t count = std::size_t{width} * height;
+    rgb.reserve(3 * count);
+    cover.reserve(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const stbi_uc* const texel = &pixels.get()[STBI_rgb_alpha * k];
+        rgb.insert(rgb.end(), texel, texel + 3);
+        cover.push_back(texel[3]);
+    }
+    Texture texture(width, height, std::move(rgb), srgb_to_linear());
+    if (std::ranges::any_of(cover, [](std::uint8_t byte) { return byte < 255; }))
+        texture.set_cover(std::move(cover));
+    return texture;
 }
 
 std::shared_ptr<const Texture> TextureFiles::decode(std::string_view bytes, const std::string& key,

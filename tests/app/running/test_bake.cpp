@@ -52,7 +52,8 @@ TEST_CASE("bake adds a lightmap in the second coordinates of the file, and chang
     const Workplace place;
     const SmallRoom room{.cube = false};
     place.write("room.gltf", room.text());
-    REQUIRE(place.hemilux("bake room.gltf -o lit.glb" + std::string(fast)).code == 0);
+    REQUIRE(place.hemilux("bake room.gltf -o lit.glb --bind lightmap" + std::string(fast)).code ==
+            0);
     const Json before = Json::parse(room.text());
     const Glb after = glb_from(place.read("lit.glb"));
     check_additions(before, after.json, "", {"/buffers/0"});
@@ -81,8 +82,8 @@ TEST_CASE("bake makes an atlas where the file has no coordinates for a lightmap"
     room.cube_twice = true;
     place.write("room.gltf", room.text());
     const auto outcome =
-        place.hemilux("bake room.gltf -o lit.glb --error 10% --max-rays 200000 --gather 4 "
-                      "--lightmap 64");
+        place.hemilux("bake room.gltf -o lit.glb --bind lightmap --error 10% --max-rays 200000 "
+                      "--gather 4 --lightmap 64");
     REQUIRE(outcome.code == 0);
     CHECK_THAT(outcome.err, Catch::Contains("no place in it: cube, other cube"));
     const Json before = Json::parse(room.text());
@@ -125,7 +126,10 @@ TEST_CASE("bake names overlaps and places beyond the square by object") {
                 "these objects reach beyond [0,1]: floor");
     check_fails(place, 2, "bake beyond.gltf -o lit.glb --lightmap-uv 7",
                 "these objects have no place in it: floor, lamp");
-    check_fails(place, 1, "bake beyond.gltf -o lit.glb --bake radiosity", "--bind unlit");
+    check_fails(place, 1, "bake beyond.gltf -o lit.glb --bake radiosity --bind lightmap",
+                "--bind unlit");
+    check_fails(place, 1, "bake beyond.gltf -o lit.glb --bake indirect --bind lit",
+                "--bake irradiance");
     check_fails(place, 1, "bake over.gltf -o lit.png", "a file name that ends with .glb");
     place.write("self.glb", "");
     check_fails(place, 1, "bake self.glb -o self.glb", "are one file");

@@ -33,8 +33,8 @@ TEST_CASE("each object has its lightmap, its texture and its error") {
     SmallRoom room;
     room.cube_twice = true;
     place.write("room.gltf", room.text());
-    const auto run = place.hemilux("bake room.gltf -o lit.glb --per-object --error 10% --max-rays "
-                                   "200000 --gather 4 --lightmap 64 --stats run.json");
+    const auto run = place.hemilux("bake room.gltf -o lit.glb --per-object --bind lightmap "
+                                   "--error 10% --max-rays 200000 --gather 4 --lightmap 64 --stats run.json");
     CAPTURE(run.err);
     REQUIRE(run.code == 0);
     const std::string names[] = {"floor", "lamp", "cube", "other_cube"};
@@ -85,8 +85,8 @@ TEST_CASE("objects that share a material and coordinates have each its own pictu
     place.write("room.gltf", scene.dump());
     for (const std::string threads : {"1", "3"})
         REQUIRE(place
-                    .hemilux("bake room.gltf --per-object -o lit" + threads + ".glb -t " + threads +
-                             fast)
+                    .hemilux("bake room.gltf --per-object --bind lightmap -o lit" + threads +
+                             ".glb -t " + threads + fast)
                     .code == 0);
     CHECK(place.has("lit1.a_b__c.lightmap.exr"));
     CHECK(place.has("lit1.A_B__C_2.lightmap.exr"));

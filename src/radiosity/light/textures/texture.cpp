@@ -79,7 +79,7 @@ Texture::Texture(std::uint32_t width, std::uint32_t height, std::vector<std::uin
 }
 
 double Texture::bytes() const {
-    return static_cast<double>(rgb_.size() + sums_.size() * sizeof(Vec3));
+    return static_cast<double>(rgb_.size() + cover_.size() + sums_.size() * sizeof(Vec3));
 }
 
 Vec3 Texture::texel(std::size_t column, std::size_t row) const {
@@ -130,11 +130,24 @@ Vec3 Texture::at(const Vec2& place, Wraps wraps) const {
                  wrapped(static_cast<std::int64_t>(std::floor(place.y)), height_, wraps.y));
 }
 
-Vec3 Texture::texel_at(const Vec2& place, Wraps wraps) const {
+/// Returns the number of the texel at a place, or as many as there are where it has none.
+std::size_t Texture::number_of(const Vec2& place, Wraps wraps) const {
     constexpr double farthest = 1e15; // beyond it a texel has no number
-    const Vec2 in_texels = place * Vec2(width_, height_);
-    const bool has_number = std::abs(in_texels.x) < farthest && std::abs(in_texels.y) < farthest;
-    return has_number ? at(in_texels, wraps) : mean_;
+    const Vec2 at = place * Vec2(width_, height_);
+    if (!(std::abs(at.x) < farthest && std::abs(at.y) < farthest))
+        return std::size_t{width_} * height_;
+    return wrapped(static_cast<std::int64_t>(std::floor(at.y)), height_, wraps.y) * width_ +
+           wrapped(static_cast<std::int64_t>(std::floor(at.x)), width_, wraps.x);
+}
+
+Vec3 Texture::texel_at(const Vec2& place, Wraps wraps) const {
+    const std::size_t number = number_of(place, wraps);
+    return number < std::size_t{width_} * height_ ? texel(number, 0) : mean_;
+}
+
+double Texture::cover_at(const Vec2& place, Wraps wraps) const {
+    const std::size_t number = number_of(place, wraps);
+    return number < cover_.size() ? cover_[number] / 255.0 : 1;
 }
 
 /// Returns the integral of F dy along an edge.

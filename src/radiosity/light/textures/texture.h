@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace hemilux {
@@ -41,9 +42,15 @@ class Texture {
     /// Returns the colour of the texel at a place, as mean_over() has them. It is the mean of the
     /// picture where the place is not finite.
     [[nodiscard]] Vec3 texel_at(const Vec2& place, Wraps wraps) const;
+    /// Gives each texel what it covers of what lies behind it, by byte: 255 is all of it. Light
+    /// does not know of it; files that show the texture do.
+    void set_cover(std::vector<std::uint8_t> cover) { cover_ = std::move(cover); }
+    /// Returns what the texel at a place covers [-]: 1 where no cover was set.
+    [[nodiscard]] double cover_at(const Vec2& place, Wraps wraps) const;
     [[nodiscard]] double bytes() const;
 
   private:
+    [[nodiscard]] std::size_t number_of(const Vec2& place, Wraps wraps) const;
     [[nodiscard]] Vec3 texel(std::size_t column, std::size_t row) const;
     [[nodiscard]] Vec3 sum_between(std::size_t first, std::size_t column, std::size_t row) const;
     [[nodiscard]] Vec3 sum_before(std::size_t column, std::size_t row) const;
@@ -58,7 +65,7 @@ class Texture {
 
     static constexpr std::size_t block = 16; ///< columns between sums that are kept
     std::uint32_t width_, height_;
-    std::vector<std::uint8_t> rgb_;
+    std::vector<std::uint8_t> rgb_, cover_;
     std::array<double, 256> linear_;
     std::size_t blocks_;     ///< of a row
     std::vector<Vec3> sums_; ///< of each row before each block

@@ -137,33 +137,64 @@ Colours mean_colours(const Scene& scene, std::uint32_t facet, const Polygon& who
                     : Colours{material.reflectance, material.emission};
 }
 
+namespace {
+
+/// Where a point of a facet lies on one of its halves.
+struct PlaceOnHalf {
+    bool second = false;
+    Vec2 place;
+};
+
 /// A quad's texture is linear on either half. The first is where the coordinate along its edge from
 /// corner 0 to corner 1 is not below 0.
-Colours colours_at_point(const Scene& scene, std::uint32_t facet, const Polygon& whole,
-                         const Vec3& point) {
-    const auto place_on_half = [&](bool second) {
+PlaceOnHalf place_on_half(const Polygon& whole, const Vec3& point) {
+    const auto place_on_one = [&](bool second) {
         const auto [b, c] = corners_of_half(second);
         return place_on(whole.corner[0], whole.corner[b] - whole.corner[0],
                         whole.corner[c] - whole.corner[0], point);
     };
-    Vec2 place = place_on_half(false);
-    const bool second = !whole.is_triangle() && !(place.x >= 0);
-    if (second)
-        place = place_on_half(true);
+    const Vec2 place = place_on_one(false);
+    if (whole.is_triangle() || place.x >= 0)
+        return {false, place};
+    return {true, place_on_one(true)};
+}
+
+/// Returns the place on the texture.
+Vec2 texture_place(const SceneTextures& textures, const TextureMap& map, std::uint32_t facet,
+                   const PlaceOnHalf& at) {
+    const auto [first, along, across] = texture_axes(textures, map, facet, at.second);
+    return map.place(first + at.place.x * along + at.place.y * across);
+}
+
+} // namespace
+
+Colours colours_at_point(const Scene& scene, std::uint32_t facet, const Polygon& whole,
+                         const Vec3& point) {
+    const PlaceOnHalf at = place_on_half(whole, point);
     const std::uint32_t number = scene.facets[facet].material;
     const Material& material = scene.materials[number];
     const SceneTextures& textures = textures_of(scene);
     const auto colour = [&](const TextureMap& map, const Vec3& otherwise) {
-        if (!map.texture)
-            return otherwise;
-        const auto [first, along, across] = texture_axes(textures, map, facet, second);
-        return map.factor * map.texture->texel_at(
-                                map.place(first + place.x * along + place.y * across), map.wraps);
+        return map.texture ? map.factor * map.texture->texel_at(
+                                              texture_place(textures, map, facet, at), map.wraps)
+                           : otherwise;
     };
     const auto& [reflectance, emission, tinted] = textures.of_material[number];
     return {colour(reflectance, material.reflectance),
-            tinted ? colour(emission, emission.factor) * tint_at(textures, facet, second, place)
+            tinted ? colour(emission, emission.factor) *
+                         tint_at(textures, facet, at.second, at.place)
                    : colour(emission, material.emission)};
+}
+
+double cover_at_point(const Scene& scene, std::uint32_t facet, const Polygon& whole,
+                      const Vec3& point) {
+    const std::uint32_t number = scene.facets[facet].material;
+    const SceneTextures& textures = textures_of(scene);
+    if (!textures.has_texture(number) || !textures.of_material[number].reflectance.texture)
+        return 1;
+    const TextureMap& map = textures.of_material[number].reflectance;
+    return map.texture->cover_at(texture_place(textures, map, facet, place_on_half(whole, point)),
+                                 map.wraps);
 }
 
 void set_tinted_means(Scene& scene) {

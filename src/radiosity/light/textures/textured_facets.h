@@ -24,6 +24,11 @@ namespace hemilux {
 [[nodiscard]] Colours colours_at_point(const Scene& scene, std::uint32_t facet,
                                        const Polygon& whole, const Vec3& point);
 
+/// Returns what the texel of the reflectance covers at such a point [-] (Texture::set_cover); 1
+/// where there is none.
+[[nodiscard]] double cover_at_point(const Scene& scene, std::uint32_t facet, const Polygon& whole,
+                                    const Vec3& point);
+
 /// Gives each tinted material the mean of its emission over its facets.
 void set_tinted_means(Scene& scene);
 
