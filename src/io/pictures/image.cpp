@@ -258,7 +258,7 @@ void write_png(const std::string& path, const Image& image, const Display& displ
         for (int channel = 0; channel < 3; ++channel)
             byte[channel] = srgb_byte(shown[channel]);
     }
-    std::string file = png_of(image.width, image.height, bytes, compression);
+    std::string file = png_of(image.width, image.height, bytes, 3, compression);
     add_to_png(file, from);
     write_atomically(path, file);
 }
