@@ -23,7 +23,7 @@ Box box_of_near(const Mesh& mesh) {
     return box;
 }
 Box box_of_lit(const Mesh& mesh, std::span<const float> weight) {
-    constexpr float hardly = 0.05f;
+    constexpr float hardly = 0.15f;
     Box box;
     for (std::size_t i = 0; i < weight.size(); ++i)
         if (weight[i] > hardly)
@@ -146,7 +146,7 @@ bool is_object(std::span<const ViewCandidate> views, std::span<const Rating> rat
     double enclosed = 0, within = 0;
     for (std::size_t i = 0; i < views.size(); ++i)
         if (views[i].kind == ViewKind::within) {
-            enclosed += ratings[i].enclosed > all_around && ratings[i].lit > as_lit * lit_outside;
+            enclosed += ratings[i].enclosed > all_around && ratings[i].lit >= as_lit * lit_outside;
             within += 1;
         }
     return enclosed < min_of_rooms * within;

@@ -52,6 +52,7 @@ std::vector<bool> are_names_of_floors(std::span<const std::string> names) {
 struct Sums {
     Box box;
     Vec3 facing{1e-9};     ///< area that faces along the axis
+    Vec3 net{0};           ///< area times normal: 0 of closed surfaces
     Vec3 floors{1e-9};     ///< the same of what is named as a floor
     Vec3 down{0};          ///< power that is emitted downwards
     Vec3 emitter_place{0}; ///< power times place
@@ -66,6 +67,7 @@ void add_near(Sums& sums, const Patch& patch, const Vec3& emission, bool is_floo
     const double power = patch.area * sum_of(emission);
     sums.area += patch.area;
     sums.centroid += patch.area * patch.centre;
+    sums.net += patch.area * patch.normal;
     sums.facing += faces;
     if (is_floor)
         sums.floors += faces;
@@ -159,7 +161,7 @@ double weight_of_shape(Vec3 extent) {
     return extent.x < thin * extent.y ? of_plate : 1;
 }
 
-std::array<Evidence, 8> evidence_of(const Mesh& mesh) {
+std::array<Evidence, 9> evidence_of(const Mesh& mesh) {
     const Sums s = sums_of(mesh);
     const Vec3 extent = glm::max(s.box.extent(), Vec3(1e-9));
     const Vec3 above =
@@ -168,11 +170,13 @@ std::array<Evidence, 8> evidence_of(const Mesh& mesh) {
     const double shape = weight_of_shape(extent);
     constexpr double little = 0.1; // of a breadth
     const double stands = hint(standing(mesh, s, 2) + little, standing(mesh, s, 1) + little, 1.6);
+    const Vec3 net = s.net / std::max(s.area, 1e-9);
     const Vec3 down = s.down + 1e-9 * s.emitted;
     const bool zero_y = begins_at_zero(mesh, s.box, 1), zero_z = begins_at_zero(mesh, s.box, 2);
     return {{{2 * hint(s.floors.z, s.floors.y, 1), "what is named a floor faces"},
              {hint(down.z, down.y, 1), "lamps shine along"},
              {shape * hint_of_most(s.facing), "most of the area faces"},
+             {1.5 * (std::max(net.z, 0.0) - std::max(net.y, 0.0)), "its open surfaces look along"},
              {0.5 * shape * hint_of_most(1.0 / extent), "the scene is least high along"},
              {1.5 * shape * stands, "the scene stands firmly along"},
              {0.7 * (double(zero_z) - double(zero_y)), "the scene begins at 0 of"},

@@ -136,7 +136,8 @@ std::string picture_warning(const ShownPicture& shown) {
     if (all < something || seen.black >= nearly_all * all)
         return (seen.black < all ? "the picture is nearly black: " : "the picture is black: ") +
                why_black(shown, lit, seen);
-    if (seen.surfaces < something || seen.white >= nearly_all * seen.surfaces)
+    if (seen.surfaces < something || seen.white >= nearly_all * seen.surfaces ||
+        seen.emitters >= nearly_all)
         return "the picture is nearly white: " + why_white(shown, seen);
     return confined_text(shown);
 }
