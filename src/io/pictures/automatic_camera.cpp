@@ -73,10 +73,22 @@ double kinds_of(std::vector<SeenLight>& seen, double weight) {
     return weight * weight / squares;
 }
 
+/// Returns the preference for views from outside: an open box is meant to be looked into, and not
+/// from high above.
+double favour(const ViewCandidate& view) {
+    constexpr double steep = 0.7;
+    if (view.kind != ViewKind::object)
+        return 1;
+    const Camera& camera = view.camera;
+    return glm::dot(glm::normalize(camera.eye - camera.target), camera.up) > steep ? 1.2 : 1.5;
+}
+
 class Judge {
   public:
-    Judge(const Mesh& mesh, const Tracer& tracer, std::span<const float> lit, double aspect)
-        : mesh_(mesh), tracer_(tracer), lit_(lit), aspect_(aspect) {}
+    Judge(const Mesh& mesh, const Tracer& tracer, std::span<const float> lit, const Box& box,
+          double aspect)
+        : mesh_(mesh), tracer_(tracer), lit_(lit), far_(0.6 * glm::length(box.extent())),
+          aspect_(aspect) {}
 
     /// Rates a view, in the local frame, by how much of the picture shows lit fronts, how many
     /// kinds of them, and how far the near ones are.
@@ -87,9 +99,8 @@ class Judge {
             return rating;
         const double kinds = kinds_of(seen, rating.lit * static_cast<double>(grid.size()));
         std::ranges::sort(seen, {}, &SeenLight::depth);
-        const double favour = view.kind == ViewKind::object ? 1.3 : 1; // to look into an open box
-        rating.score =
-            favour * rating.lit * std::sqrt(kinds) * std::sqrt(seen[seen.size() / 4].depth);
+        const double depth = std::min(seen[seen.size() / 4].depth, far_);
+        rating.score = favour(view) * rating.lit * std::sqrt(kinds) * std::sqrt(depth);
         return rating;
     }
 
@@ -132,6 +143,7 @@ class Judge {
     const Mesh& mesh_;
     const Tracer& tracer_;
     std::span<const float> lit_;
+    double far_; ///< depth beyond which things are not seen better for it
     double aspect_;
 };
 
@@ -180,10 +192,10 @@ AutomaticView automatic_view(const Mesh& mesh, const Tracer& tracer,
     constexpr std::size_t finalists = 48;
     const LitPatches lit = lit_patches(mesh, radiosity);
     const int up = wish.up ? *wish.up : guess_up(mesh, wish.usual_up);
+    const Box box = box_of_near(mesh);
     const std::vector<ViewCandidate> views = view_candidates(
-        mesh, tracer,
-        {box_of_near(mesh), box_of_lit(mesh, lit.weight), up, wish.aspect, lit.brightest});
-    const Judge judge(mesh, tracer, lit.weight, wish.aspect);
+        mesh, tracer, {box, box_of_lit(mesh, lit.weight), up, wish.aspect, lit.brightest});
+    const Judge judge(mesh, tracer, lit.weight, box, wish.aspect);
     std::vector<Rating> ratings(views.size());
     std::vector<std::size_t> which(views.size());
     std::iota(which.begin(), which.end(), std::size_t{0});
