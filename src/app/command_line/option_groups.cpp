@@ -24,12 +24,18 @@ Option add_override(Command command, const std::string& name, std::vector<Overri
         .repeatable();
 }
 
-/// Returns a camera, or none for `auto`.
-std::optional<std::optional<Camera>> camera_from(const std::string& text) {
+/// A camera, or none for `auto`, and whether it says what is upwards.
+struct GivenCamera {
+    std::optional<Camera> camera;
+    bool has_up;
+};
+
+std::optional<GivenCamera> camera_from(const std::string& text) {
+    constexpr int commas_with_up = 9;
     if (text == "auto")
-        return std::optional<Camera>();
+        return GivenCamera{};
     if (const std::optional<Camera> camera = parse_camera(text))
-        return camera;
+        return GivenCamera{camera, std::ranges::count(text, ',') == commas_with_up};
     return std::nullopt;
 }
 
@@ -212,16 +218,20 @@ void add_camera_options(Command command, ViewSettings& view) {
         "chooses it [that of the scene, else auto]",
         "auto or ex,ey,ez,tx,ty,tz[,fov[,ux,uy,uz]] with two different points, an angle "
         "between 0 and 180 degrees and a direction that is not 0,0,0",
-        camera_from, [&view](const std::optional<Camera>& value) {
-            view.camera = value;
+        camera_from, [&view](const GivenCamera& value) {
+            view.camera = value.camera;
+            view.camera_has_up = value.has_up;
             view.uses_camera_of_scene = false;
         });
-    command.add_value("--up", "y|z", "axis that is upwards [guessed; y of .gltf and .glb]",
-                      [&view](const std::string& axis) {
-                          if (axis != "y" && axis != "z")
-                              throw UsageError("--up: expected y or z, not '" + axis + "'");
-                          view.up = axis == "y" ? 1 : 2;
-                      });
+    command.add_value(
+        "--up", "y|z",
+        "axis that is upwards, also for a --camera without a direction upwards [guessed; y of "
+        ".gltf and .glb]",
+        [&view](const std::string& axis) {
+            if (axis != "y" && axis != "z")
+                throw UsageError("--up: expected y or z, not '" + axis + "'");
+            view.up = axis == "y" ? 1 : 2;
+        });
     add_parsed(
         command, "--size", "WxH", "of pictures, in pixels [800x600]",
         "a width and a height from 1 to 16384, such as 800x600",

@@ -68,7 +68,7 @@ LoadedSurfaces load_surfaces(const ViewFactorSettings& settings, const RunFiles&
     const FileView view = view_of_file(settings.scene.path, read);
     Mesh mesh = divide_scene(std::move(read.scene), settings.scene, settings.options.threads);
     log_line(settings.verbosity, Verbosity::verbose, mesh_text(mesh));
-    return {std::move(mesh), settings.up.value_or(view.up.value_or(2)), need};
+    return {std::move(mesh), settings.up.value_or(view.usual_up.value_or(2)), need};
 }
 
 /// Reads the file of --points, if there is one.

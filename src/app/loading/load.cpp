@@ -161,14 +161,19 @@ FileView view_of_file(const std::string& path, const ReadResult& read) {
     FileView view{read.camera, read.camera_name, {}};
     const std::string extension = extension_of(path);
     if (extension == ".gltf" || extension == ".glb")
-        view.up = read.camera && is_level_by_z(*read.camera) ? 2 : 1;
+        view.usual_up = read.camera && is_level_by_z(*read.camera) ? 2 : 1;
+    else if (extension == ".stl")
+        view.usual_up = 2;
     return view;
 }
 
 ViewSettings view_of(const ViewSettings& asked, const FileView& file, Verbosity verbosity) {
     ViewSettings view = asked;
-    if (!view.up)
-        view.up = file.up;
+    view.usual_up = file.usual_up;
+    if (view.camera && view.up && !view.camera_has_up) {
+        view.camera->up = Vec3(0.0);
+        view.camera->up[*view.up] = 1;
+    }
     if (view.camera || !view.uses_camera_of_scene || !file.camera)
         return view;
     view.camera = as_printed(*file.camera);

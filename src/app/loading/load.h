@@ -33,13 +33,13 @@ void check_solvable(const ReadResult& read, const std::string& path);
 struct FileView {
     std::optional<Camera> camera; ///< ReadResult
     std::string camera_name;
-    /// The axis that is upwards. For glTF it is 1, or 2 where its camera is held level only so; it
-    /// is empty for other formats.
-    std::optional<int> up;
+    /// The axis that is upwards in files of this kind. For glTF it is 1, or 2 where its camera is
+    /// held level only so; for STL it is 2, as printers have it; it is empty for other formats.
+    std::optional<int> usual_up;
 };
 [[nodiscard]] FileView view_of_file(const std::string& path, const ReadResult& read);
-/// Returns the view asked for. Where no camera was asked for, it has the camera of the file, which
-/// is reported.
+/// Returns the view asked for. A camera that was asked for without a direction upwards has that of
+/// --up. Where no camera was asked for, the view has the camera of the file, which is reported.
 [[nodiscard]] ViewSettings view_of(const ViewSettings& asked, const FileView& file,
                                    Verbosity verbosity);
 

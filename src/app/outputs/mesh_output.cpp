@@ -9,8 +9,8 @@
 #include "io/meshes/baked_light.h"
 #include "io/meshes/glb.h"
 #include "io/meshes/indirect_light.h"
-#include "io/pictures/automatic_camera.h"
 #include "io/pictures/exr.h"
+#include "io/pictures/up_axis.h"
 #include "parallel/workers.h"
 #include "radiosity/paper/sampling/rng.h"
 
@@ -46,7 +46,8 @@ std::span<const Image> lightmaps_in(const LampLight& lamps, std::size_t layout) 
 }
 
 /// Returns the axis that is upwards; reported where z was guessed.
-int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
+int up_axis(const ViewSettings& view, const Mesh& mesh, Verbosity verbosity) {
+    const std::optional<int> known = view.up ? view.up : view.usual_up;
     const int up = known ? *known : guess_up(mesh);
     if (!known && up == 2)
         log_line(verbosity, Verbosity::normal, "z is taken as upwards; --up y takes y");
@@ -99,7 +100,7 @@ void write_mesh(const SolveSettings& settings, const Output& output, const Resul
     light.display = display_of(settings.view, results.mesh, classes, light.of_class);
     if (output.kind == OutputKind::ply)
         return write_ply(output.path, results.mesh, classes, light, settings.ply_colours);
-    const int up = up_axis(settings.view.up, results.mesh, settings.verbosity);
+    const int up = up_axis(settings.view, results.mesh, settings.verbosity);
     if (settings.lightmap)
         write_lightmapped(settings, output.path, results, classes, light, up, report);
     else

@@ -14,6 +14,7 @@
 #include "io/meshes/vtu.h"
 #include "io/pictures/exr.h"
 #include "io/pictures/image.h"
+#include "io/rendering/picture_check.h"
 #include "io/results/smooth.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/densities/density.h"
@@ -73,7 +74,17 @@ class Picture {
                           : interpolated(scene, results_.solution);
         choose_exposure(view_, image, scene, camera_,
                         pixels_in_time(results_.monitor.interrupted.own().wished));
+        if (!results_.monitor.interrupted.own().wished)
+            warn_of_picture(image, scene, verbosity);
         return image;
+    }
+
+    /// Says why a picture shows nothing.
+    void warn_of_picture(const Image& image, const LitScene& scene, Verbosity verbosity) const {
+        const std::string text = picture_warning(
+            {image, display_of(view_), scene.mesh, scene.tracer, scene.radiosity, camera_});
+        if (!text.empty())
+            log_line(verbosity, Verbosity::normal, "warning: " + text);
     }
 
     [[nodiscard]] Image interpolated(const LitScene& scene, const Solution& solution) {

@@ -75,9 +75,10 @@ Camera as_printed(Camera camera) {
 Camera camera_of(const ViewSettings& view, const LitScene& scene) {
     const auto [width, height] = view.size;
     return view.camera ? *view.camera
-                       : as_printed(automatic_camera(scene.mesh, scene.tracer, scene.radiosity,
-                                                     static_cast<double>(width) / height, view.up,
-                                                     scene.threads));
+                       : as_printed(automatic_view(scene.mesh, scene.tracer, scene.radiosity,
+                                                   {static_cast<double>(width) / height, view.up,
+                                                    view.usual_up, scene.threads})
+                                        .camera);
 }
 
 RenderOptions picture_options(PixelSize size, unsigned threads,

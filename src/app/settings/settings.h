@@ -57,7 +57,9 @@ enum class Verbosity { quiet, normal, verbose };
 struct ViewSettings {
     std::optional<Camera> camera;     ///< empty: chosen by the program
     bool uses_camera_of_scene = true; ///< its camera is used where there is one and none was given
-    std::optional<int> up;            ///< axis, 1 for y or 2 for z; empty: guessed
+    bool camera_has_up = false;       ///< the camera given says what is upwards in the picture
+    std::optional<int> up;            ///< axis asked for, 1 for y or 2 for z; empty: guessed
+    std::optional<int> usual_up;      ///< FileView::usual_up
     PixelSize size{800, 600};
     std::optional<double> exposure; ///< empty: from the picture
     double stops = 0;               ///< the exposure is doubled so often

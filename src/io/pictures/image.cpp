@@ -198,14 +198,17 @@ double auto_exposure(const Image& image, const Image& emission) {
     constexpr double contrast = 12;
     constexpr double aim = 0.8;
     constexpr float rounding = 1e-5f; // of the difference of two like numbers
-    std::vector<float> lit;
+    constexpr std::size_t few = 100;  // lit pixels beside those of emitters
+    std::vector<float> lit, on_emitters;
     lit.reserve(image.pixels.size());
     for (std::size_t k = 0; k < image.pixels.size(); ++k) {
         const float all = luminance(image.pixels[k]);
         const float y = emission.pixels.empty() ? all : all - luminance(emission.pixels[k]);
         if (y > rounding * all && std::isfinite(y))
-            lit.push_back(y);
+            (2 * y > all ? lit : on_emitters).push_back(y);
     }
+    if (few * lit.size() < on_emitters.size())
+        lit.insert(lit.end(), on_emitters.begin(), on_emitters.end());
     if (lit.empty())
         return emission.pixels.empty() ? 1 : auto_exposure(image);
     const auto value_at = [&](double share) {

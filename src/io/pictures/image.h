@@ -49,9 +49,10 @@ struct Image {
 ///   0.8 / min(percentile_95(Y), 12 percentile_50(Y)):
 ///
 /// so emitters and skies in view have no part in it, a twentieth of the picture may be brighter,
-/// and the darker half is not lost beside a patch of sun. It is 1 for a black picture. Where
-/// nothing is reflected all light counts. `emission` has the size of the picture, or is empty where
-/// nothing is emitted.
+/// and the darker half is not lost beside a patch of sun. Pixels that emit more than they reflect
+/// count where they are 99 % of those, and nowhere else. It is 1 for a black picture. Where nothing
+/// is reflected all light counts. `emission` has the size of the picture, or is empty where nothing
+/// is emitted.
 [[nodiscard]] double auto_exposure(const Image& image, const Image& emission = {});
 
 /// Sets the flag of a hurry: once it is true, pictures are compressed little, as a large one takes

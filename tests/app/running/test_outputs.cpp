@@ -110,6 +110,14 @@ TEST_CASE("the axis that is upwards is chosen, or reported where it is guessed")
     CHECK_THAT(place.hemilux(run + "--up z -o a.png").err, Catch::Contains(",0,0,1\n"));
     CHECK_THAT(place.hemilux(run + "--up y -o a.png").err,
                Catch::Contains("pictures are seen by --camera ") && !Catch::Contains(",0,0,1"));
+    const std::string seen = run + "-q --camera 0.3,0.4,0.9,0.5,0.5,0.2,60";
+    REQUIRE(place.hemilux(seen + " --up z -o up.png").code == 0);
+    REQUIRE(place.hemilux(seen + ",0,0,1 -o said.png").code == 0);
+    REQUIRE(place.hemilux(seen + ",0,0,1 --up y -o both.png").code == 0);
+    REQUIRE(place.hemilux(seen + " -o y.png").code == 0);
+    CHECK(picture_of(place, "up.png") == picture_of(place, "said.png"));
+    CHECK(picture_of(place, "both.png") == picture_of(place, "said.png"));
+    CHECK(picture_of(place, "y.png") != picture_of(place, "said.png"));
     REQUIRE(place.hemilux(run + "-q --up z -o z.glb").code == 0);
     CHECK_THAT(place.read("z.glb"), Catch::Contains("\"rotation\""));
     REQUIRE(place.hemilux(run + "-q --up y -o y.glb").code == 0);

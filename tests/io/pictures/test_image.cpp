@@ -169,6 +169,21 @@ TEST_CASE("exposure brings walls to .8, whatever the lamp and the background") {
     CHECK(auto_exposure(image, image) == auto_exposure(image));
 }
 
+TEST_CASE("lamps that fill the view have no part in its exposure by what they reflect") {
+    Image image(20, 10), emission(20, 10);
+    for (int x = 0; x < 20; ++x)
+        for (int y = 0; y < 10; ++y) {
+            emission.at(x, y) = glm::vec3(y < 9 ? 1.0f : 0.0f);
+            image.at(x, y) = glm::vec3(y < 9 ? 1.001f : 0.4f);
+        }
+    CHECK(auto_exposure(image, emission) == Approx(2));
+    emission.at(3, 9) = glm::vec3(0.3f); // hardly anything but lamps is left
+    for (int x = 0; x < 19; ++x)
+        image.at(x, 9) = glm::vec3(0);
+    image.at(19, 9) = glm::vec3(0.4f);
+    CHECK(auto_exposure(image, emission) == Approx(0.8 / 0.001).epsilon(1e-3));
+}
+
 TEST_CASE("a file appears complete or not at all") {
     const TemporaryFolder folder;
     const std::string path = folder.path("out.txt");
