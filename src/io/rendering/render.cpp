@@ -192,9 +192,11 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
             throw Interrupted();
         return std::move(found.image);
     }
+    const std::function<void()> check = check_of(options);
+    check(); // before it takes much memory
     const View view(mesh, tracer, camera, options, options.square);
     Image image = shaded_picture(view.visible, view.grid, Shading(mesh, radiosity, options),
-                                 view.panes(), options, check_of(options));
+                                 view.panes(), options, check);
     return options.square > 1 ? enlarged(image, options.square, options.width, options.height)
                               : std::move(image);
 }
@@ -205,6 +207,7 @@ RowsOfPicture render_rows(const Mesh& mesh, const Tracer& tracer, std::span<cons
     const Workers workers(options.threads);
     const std::function<void()> check = check_of(options);
     try {
+        check(); // before it takes much memory
         const View view(mesh, tracer, camera, options, 1);
         PictureGather gather(
             mesh, tracer, SurfaceLight(mesh, PatchLight(radiosity, options.slope), options.cells),
