@@ -174,7 +174,7 @@ std::optional<PutIn> put_in_light(const ReadResult& read, SceneSettings& setting
         view.camera || !view.uses_camera_of_scene ? view.camera : file.camera;
     if (has_light && is_lit(mesh, *made.tracer, settings.sides, view, camera))
         return std::nullopt;
-    const int up = view.up ? *view.up : file.up ? *file.up : guess_up(mesh);
+    const int up = view.up ? *view.up : guess_up(mesh, file.usual_up);
     const Dark dark{read.scene, mesh, *made.tracer, view, camera, up};
     const FreeSpace free = find_free_space(mesh, *made.tracer);
     const auto put_in = [&](SceneSettings& to, bool rooms_too) {
