@@ -192,12 +192,12 @@ void add_random_options(Command command, SolveOptions& options) {
                              std::numeric_limits<std::uint64_t>::max(),
                              "of the random numbers [1]");
     add_whole<unsigned>(command, "-t,--threads", options.threads, 0, 1024,
-                        "0: one per core; the result does not depend on it [0]");
+                        "0: one per core, with the same result [0]");
 }
 
 void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
     command.add_text("--checkpoint", "FILE", checkpoint.path,
-                     "keep what was computed in a file, meanwhile and at the end");
+                     "keep what was computed, meanwhile and at the end");
     add_seconds(command, "--every", checkpoint.every, non_negative,
                 "of the time between two checkpoints; 0: as often as there is more [60]");
     command.add_text(
@@ -216,7 +216,7 @@ void add_camera_options(Command command, ViewSettings& view) {
             view.camera = value;
             view.uses_camera_of_scene = false;
         });
-    command.add_value("--up", "y|z", "axis that is upwards [guessed; y of .gltf and .glb]",
+    command.add_value("--up", "y|z", "axis upwards [guessed; y of .gltf and .glb]",
                       [&view](const std::string& axis) {
                           if (axis != "y" && axis != "z")
                               throw UsageError("--up: expected y or z, not '" + axis + "'");

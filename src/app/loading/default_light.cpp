@@ -3,6 +3,7 @@
 #include "app/loading/lights.h"
 #include "app/loading/load.h"
 #include "app/settings/text.h"
+#include "geometry/elementary.h"
 #include "io/pictures/automatic_camera.h"
 #include "io/pictures/camera.h"
 #include "io/scene_files/inspect.h"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -76,7 +78,8 @@ double share_lit(const Mesh& mesh, const Tracer& tracer, Sides sides, const View
 /// Returns a coordinate to a hundredth of `unit`.
 std::string place_text(double x, double unit) {
     constexpr int most = 17;
-    const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(unit))), 0, most);
+    const int decimals = std::clamp(
+        2 - static_cast<int>(std::floor(elementary::log(unit) / std::numbers::ln10)), 0, most);
     std::string text = formatted("%.*f", decimals, x);
     if (decimals > 0) {
         text.erase(text.find_last_not_of('0') + 1);
