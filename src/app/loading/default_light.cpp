@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -77,7 +78,10 @@ double share_lit(const Mesh& mesh, const Tracer& tracer, Sides sides, const View
 
 /// Returns a coordinate to a hundredth of `unit`.
 std::string place_text(double x, double unit) {
-    constexpr int most = 17;
+    constexpr int most = 15;
+    constexpr double smallest = 1e-12, largest = 1e12; // beyond, powers of ten are easier to read
+    if (unit < smallest || unit > largest)
+        return formatted("%.12g", x);
     const int decimals = std::clamp(
         2 - static_cast<int>(std::floor(elementary::log(unit) / std::numbers::ln10)), 0, most);
     std::string text = formatted("%.*f", decimals, x);
@@ -87,6 +91,12 @@ std::string place_text(double x, double unit) {
             text.pop_back();
     }
     return text == "-0" ? "0" : text;
+}
+
+/// Returns a number above 0 to two digits.
+std::string number_text(double x) {
+    const double rounded = std::strtod(formatted("%.2g", x).c_str(), nullptr);
+    return place_text(rounded, rounded);
 }
 
 std::string text_of(const Vec3& v, double unit) {
@@ -99,8 +109,8 @@ std::string lamp_text(const RoomLamp& lamp, const LocalFrame& frame, int up) {
     down[up] = -1;
     const double radius = lamp.radius / frame.scale;
     return "disc at " + text_of(frame.to_world(lamp.centre), radius) + " towards " +
-           text_of(down, 1) + formatted(" radius %.2g", radius) +
-           formatted(" watts %.2g", frame.area_to_world(lamp.area));
+           text_of(down, 1) + " radius " + number_text(radius) + " watts " +
+           number_text(frame.area_to_world(lamp.area));
 }
 
 /// What is known of a scene whose light is chosen.

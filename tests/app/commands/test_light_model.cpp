@@ -81,7 +81,7 @@ TEST_CASE("hemilux MODEL writes a picture and says what to do next") {
 }
 
 TEST_CASE("a model without a lamp is lit, and the options that it prints give the same") {
-    for (const double unit : {1.0, 1000.0, 1e-5}) {
+    for (const double unit : {1.0, 1000.0, 1e-5, 1e-15, 1e15}) {
         CAPTURE(unit);
         const Workplace place;
         write_dark_room(place, unit);
