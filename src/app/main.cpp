@@ -134,7 +134,7 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
         std::ranges::count(program.commands(), words.front()) == 0 && names_model(words.front());
     if (lights_model)
         words.insert(words.begin(), "solve");
-    if (const auto text = method_help(words)) {
+    if (const auto text = method_help(words, program.described())) {
         print(*text);
         return exit_done;
     }

@@ -17,6 +17,9 @@ namespace hemilux {
 
 namespace {
 
+/// The parser gives no name to options without a group, so those that help leaves out have this.
+constexpr const char* hidden_group = "Hidden";
+
 std::vector<std::string> names_of(const std::vector<const CLI::App*>& subcommands) {
     std::vector<std::string> names;
     for (const CLI::App* const subcommand : subcommands)
@@ -104,6 +107,8 @@ CommandText described(const CLI::App& command) {
                              option->get_description(),
                              option->get_group(),
                              option->get_expected_max() > 1};
+        if (of_option.group == hidden_group)
+            of_option.group.clear();
         if (option->get_items_expected_max() > 0)
             of_option.type = option->get_type_name();
         if (option->get_positional())
@@ -141,6 +146,8 @@ class HelpFormatter : public CLI::Formatter {
     }
     std::string make_group(std::string group, bool is_positional,
                            std::vector<const CLI::Option*> options) const override {
+        if (group == hidden_group)
+            return "";
         if (group != folded_)
             return CLI::Formatter::make_group(group, is_positional, options);
         std::string line = "\n" + group + " (" + more_ + "):\n ", text;
@@ -161,7 +168,7 @@ class HelpFormatter : public CLI::Formatter {
 };
 
 void describe_exclusion(CLI::Option& of, const CLI::Option& other) {
-    if (!other.get_group().empty()) // else it is hidden
+    if (other.get_group() != hidden_group)
         of.description(of.get_description() + " (not with " + other.get_name() + ")");
 }
 
@@ -212,7 +219,7 @@ Option Option::repeatable() const {
 }
 
 Option Option::hidden() const {
-    option_->group("");
+    option_->group(hidden_group);
     return *this;
 }
 

@@ -180,7 +180,7 @@ Command add_compare_command(Arguments& program, CompareSettings& settings) {
     add_scene_options(command, settings.scene);
     add_memory_option(command.under(scene_group), settings.scene);
     add_methods_option(method, settings.variants);
-    add_method_options(method, settings.options);
+    add_method_options(method, command.under(own_group), settings.options);
     add_own_options(command.under(own_group), methods(), settings.options);
     add_budget_options(command.under("Budget of each run of each method, one of the three"),
                        settings);

@@ -198,12 +198,12 @@ void add_random_options(Command command, SolveOptions& options) {
                              std::numeric_limits<std::uint64_t>::max(),
                              "of the random numbers [1]");
     add_whole<unsigned>(command, "-t,--threads", options.threads, 0, 1024,
-                        "0: one per core; the result does not depend on it [0]");
+                        "0: one per core, with the same result [0]");
 }
 
 void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
     command.add_text("--checkpoint", "FILE", checkpoint.path,
-                     "keep what was computed in a file, meanwhile and at the end");
+                     "keep what was computed, meanwhile and at the end");
     add_seconds(command, "--every", checkpoint.every, non_negative,
                 "of the time between two checkpoints; 0: as often as there is more [60]");
     command.add_text(

@@ -20,15 +20,15 @@ namespace hemilux {
 void add_stop_options(Command command, StopRule& stop) {
     add_whole<std::uint32_t>(command, "--steps", stop.steps, 1,
                              std::numeric_limits<std::uint32_t>::max(), "after N steps");
-    add_seconds(
-        command, "--time", stop.seconds, positive,
-        "after a time of solving, and as long again at --points; 2m and 1h are minutes and hours");
-    add_error(command, "--error", stop.error,
-              "at an estimated relative error, e.g. 1% or 0.01; for pictures and --points at an "
-              "error of gathered light that is surely below this [0.02 for these]");
-    add_whole<std::uint64_t>(
-        command, "--max-rays", stop.rays, 1, std::numeric_limits<std::uint64_t>::max(),
-        "after N rays, even if the error is not reached [1e8 and 1000 a patch]");
+    add_seconds(command, "--time", stop.seconds, positive,
+                "after a time of solving, and as long again at --points; as 30, 2m or 1h");
+    add_error(
+        command, "--error", stop.error,
+        "at an estimated relative error, e.g. 1% or 0.01; of pictures and --points when it is "
+        "surely below this [0.02 for these]");
+    add_whole<std::uint64_t>(command, "--max-rays", stop.rays, 1,
+                             std::numeric_limits<std::uint64_t>::max(),
+                             "after N rays [1e8 and 1000 a patch]");
 }
 
 void add_layers_option(Command command, std::optional<LayersBy>& layers) {
@@ -87,8 +87,7 @@ void add_error_accuracy_option(Command command, double& accuracy) {
 
 void add_whole_error_option(Command command, SolveSettings& settings) {
     command.add_flag("--whole-error", settings.whole_error,
-                     "also find out how far the light within patches is from theirs; takes up to "
-                     "half as many rays again");
+                     "also find out how far the light within patches is from theirs");
 }
 
 void add_output_option(Command command, SolveSettings& settings) {
@@ -183,7 +182,6 @@ Examples:
   hemilux solve room.obj -o room.png
   hemilux solve room.obj --sky 1 --error 1% -o room.hdr -o room.csv
   hemilux solve room.obj --points desks.txt --points-output desks.csv
-  hemilux solve house.obj --for group:kitchen --error 0.02 -o house.csv
   hemilux solve map.obj --emission 'Lava=8,2,0.3' --reflectance '*=0.6' -o map.ply
   hemilux solve room.obj --steps 999 -o room.csv --checkpoint room.saved --resume room.saved
 )";
@@ -231,9 +229,10 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_divide_option(scene, max_edge, settings);
     add_memory_option(scene, settings.scene);
     add_method_option(method, settings.method);
-    add_method_options(method, settings.options);
-    add_plain_option(method, settings.plain);
-    add_own_options(command.under(own_group), methods(), settings.options);
+    const Command own = command.under(own_group);
+    add_method_options(method, own, settings.options);
+    add_plain_option(own, settings.plain);
+    add_own_options(own, methods(), settings.options);
     const Command stop = command.under("Stop at the first that is met");
     add_stop_options(stop, settings.stop);
     stop.add_flag("--useful", settings.useful,

@@ -12,8 +12,9 @@ namespace hemilux {
 
 inline constexpr const char* comparison_group = "Comparison";
 
-/// Adds --rays, --depth and others that say how to solve, but for the method itself.
-void add_method_options(Command command, SolveOptions& options);
+/// Adds --rays and others that say how to solve, but for the method itself; what only some methods
+/// take is added to `own`.
+void add_method_options(Command command, Command own, SolveOptions& options);
 /// Adds --steps, --time, --error and --max-rays.
 void add_stop_options(Command command, StopRule& stop);
 /// Adds --layers.
@@ -24,8 +25,10 @@ void add_detail_option(Command command, std::vector<std::string>& detail);
 /// Returns the names of the methods.
 [[nodiscard]] std::string methods_text();
 /// Returns the help of one method where the words ask for that, as `solve --help METHOD`: what it
-/// is, and the options that it alone or few have. Throws UsageError for another name.
-[[nodiscard]] std::optional<std::string> method_help(const std::vector<std::string>& words);
+/// is, and the options that it alone or few have. `program` is Arguments::described(). Throws
+/// UsageError for another name.
+[[nodiscard]] std::optional<std::string> method_help(const std::vector<std::string>& words,
+                                                     const std::vector<CommandText>& program);
 /// Lets --help name these options only; `--help METHOD` says what they do.
 void fold_own_options(Command command);
 /// This text says what the program's exit codes mean.

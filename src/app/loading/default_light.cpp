@@ -3,6 +3,7 @@
 #include "app/loading/lights.h"
 #include "app/loading/load.h"
 #include "app/settings/text.h"
+#include "geometry/elementary.h"
 #include "io/pictures/automatic_camera.h"
 #include "io/pictures/camera.h"
 #include "io/scene_files/inspect.h"
@@ -15,6 +16,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -75,8 +78,12 @@ double share_lit(const Mesh& mesh, const Tracer& tracer, Sides sides, const View
 
 /// Returns a coordinate to a hundredth of `unit`.
 std::string place_text(double x, double unit) {
-    constexpr int most = 17;
-    const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(unit))), 0, most);
+    constexpr int most = 15;
+    constexpr double smallest = 1e-12, largest = 1e12; // beyond, powers of ten are easier to read
+    if (unit < smallest || unit > largest)
+        return formatted("%.12g", x);
+    const int decimals = std::clamp(
+        2 - static_cast<int>(std::floor(elementary::log(unit) / std::numbers::ln10)), 0, most);
     std::string text = formatted("%.*f", decimals, x);
     if (decimals > 0) {
         text.erase(text.find_last_not_of('0') + 1);
@@ -84,6 +91,12 @@ std::string place_text(double x, double unit) {
             text.pop_back();
     }
     return text == "-0" ? "0" : text;
+}
+
+/// Returns a number above 0 to two digits.
+std::string number_text(double x) {
+    const double rounded = std::strtod(formatted("%.2g", x).c_str(), nullptr);
+    return place_text(rounded, rounded);
 }
 
 std::string text_of(const Vec3& v, double unit) {
@@ -96,8 +109,8 @@ std::string lamp_text(const RoomLamp& lamp, const LocalFrame& frame, int up) {
     down[up] = -1;
     const double radius = lamp.radius / frame.scale;
     return "disc at " + text_of(frame.to_world(lamp.centre), radius) + " towards " +
-           text_of(down, 1) + formatted(" radius %.2g", radius) +
-           formatted(" watts %.2g", frame.area_to_world(lamp.area));
+           text_of(down, 1) + " radius " + number_text(radius) + " watts " +
+           number_text(frame.area_to_world(lamp.area));
 }
 
 /// What is known of a scene whose light is chosen.

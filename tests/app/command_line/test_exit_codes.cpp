@@ -16,7 +16,7 @@ TEST_CASE("help and version go to stdout and end with 0") {
         CHECK_THAT(help.out, Contains("hemilux"));
     }
     const std::string help = place.hemilux("solve --help").out;
-    CHECK_THAT(help, Contains("(not with --max-edge)") && Contains("(not with --divide)"));
+    CHECK_THAT(help, Contains("(not with --verbose)") && Contains("(not with --quiet)"));
     CHECK_THAT(help, !Contains("Excludes"));
     for (const char* text :
          {"--method", "--literal", "--steps-log", "Examples:", "Exit codes:", " hemisphere ",

@@ -26,7 +26,7 @@ class ObjScene {
         for (const auto& side : sides) {
             text_ << "f";
             for (int i = 0; i < 4; ++i)
-                text_ << ' ' << side[inside ? 3 - i : i] - 8;
+                text_ << ' ' << side[inside ? i : 3 - i] - 8;
             text_ << '\n';
         }
     }
@@ -81,7 +81,7 @@ TEST_CASE("hemilux MODEL writes a picture and says what to do next") {
 }
 
 TEST_CASE("a model without a lamp is lit, and the options that it prints give the same") {
-    for (const double unit : {1.0, 1000.0, 1e-5}) {
+    for (const double unit : {1.0, 1000.0, 1e-5, 1e-15, 1e15}) {
         CAPTURE(unit);
         const Workplace place;
         write_dark_room(place, unit);
@@ -172,7 +172,7 @@ TEST_CASE("a file that is no model, or is not there, is refused") {
     test::check_fails(place, 2, "notes.txt", "expected a scene of a kind that can be read");
     test::check_fails(place, 2, "nowhere.glb", "nowhere.glb");
     CHECK_FALSE(place.has("nowhere.png"));
-    place.write("empty.obj", "v 0 0 0\n");
-    test::check_fails(place, 2, "empty.obj", "no face with an area");
+    place.write("empty.obj", "v 0 0 0\nf 1 1 1\n");
+    test::check_fails(place, 2, "empty.obj", "none of the faces has an area");
     CHECK_FALSE(place.has("empty.png"));
 }

@@ -89,7 +89,7 @@ TEST_CASE("mistakes of the command line are said in the program's own words") {
     check("solve room.obj -o a.png --rays 1 --rays 2",
           "--rays: expected once, it is given 2 times");
     check("solve -o a.png", "expected SCENE");
-    check("", "expected a subcommand");
+    check("--up y", "unknown option '--up'");
     check("solve room.obj -o a.png --two-sided --sides both", "contradict");
     check("solve room.obj b.obj -o a.png", "'b.obj' was not expected");
 }

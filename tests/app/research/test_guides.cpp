@@ -63,7 +63,7 @@ TEST_CASE("--guide is an option of hemisphere alone, and its page has none") {
                 "--guide visible is for --method hemisphere");
     for (const std::string guide : {"visible", "pyramid", "learned"})
         check_fails(place, 1, solve + "--plain --guide " + guide, "leave out --guide " + guide);
-    CHECK_THAT(place.hemilux("solve --help").out,
+    CHECK_THAT(place.hemilux("solve --help hemisphere").out,
                Contains("--guide density|pyramid|visible|learned"));
 }
 

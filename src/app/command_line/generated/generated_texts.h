@@ -12,6 +12,8 @@ namespace hemilux {
 /// This is the heading of the options that the short help has.
 inline constexpr const char* often_used_group = "Often used";
 
+/// Returns an option with this help, as a line of help_in_columns().
+[[nodiscard]] std::string option_line(const OptionText& option, const std::string& help);
 /// Returns the short help of a subcommand: its first three examples and the options that are often
 /// used.
 [[nodiscard]] std::string short_help(const CommandText& command);

@@ -59,9 +59,11 @@ std::string manual_page(const std::vector<CommandText>& program, const std::stri
     page << ".TH HEMILUX 1 \"\" \"" << plain(version) << "\" \"User Commands\"\n.SH NAME\n"
          << plain(name) << " \\- " << plain(description.substr(description.find(": ") + 2))
          << "\n.SH SYNOPSIS\n";
+    page << bold(name) << " " << italic("MODEL") << " [" << italic("OPTIONS") << "]\n";
     for (std::size_t k = 1; k < program.size(); ++k)
-        page << (k > 1 ? ".br\n" : "") << bold(name + " " + program[k].name) << " ["
-             << italic("OPTIONS") << "] " << italic("SCENE") << "\n";
+        page << ".br\n"
+             << bold(name + " " + program[k].name) << " [" << italic("OPTIONS") << "] "
+             << italic("SCENE") << "\n";
     page << ".SH OPTIONS\n";
     write_options(page, program.front());
     std::set<std::string> written;

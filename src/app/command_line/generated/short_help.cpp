@@ -26,7 +26,9 @@ std::string examples_in(const std::string& text) {
     return examples;
 }
 
-std::string option_line(const OptionText& option) {
+} // namespace
+
+std::string option_line(const OptionText& option, const std::string& help) {
     constexpr std::size_t column = 30;
     std::string line = " ";
     for (const std::string& name : option.names)
@@ -36,10 +38,8 @@ std::string option_line(const OptionText& option) {
         line += "\n" + std::string(column, ' ');
     else
         line.resize(column, ' ');
-    return line + first_thought(option.help) + "\n";
+    return line + help + "\n";
 }
-
-} // namespace
 
 std::string short_help(const CommandText& command) {
     std::string usage = "hemilux " + command.name + " [OPTIONS]", options;
@@ -47,7 +47,7 @@ std::string short_help(const CommandText& command) {
         if (!option.names.front().starts_with("-"))
             usage += " " + option.names.front();
         else if (option.group == often_used_group)
-            options += option_line(option);
+            options += option_line(option, first_thought(option.help));
     return command.description + "\nUsage: " + usage + "\n\nExamples:\n" +
            examples_in(command.end) + "\nOptions that are often used:\n" + options + "\nhemilux " +
            command.name + " --help lists all options.\n";
