@@ -122,8 +122,10 @@ void add_output_options(Command command, SolveSettings& settings) {
 }
 
 void add_point_options(Command command, SolveSettings& settings) {
-    command.add_text("--points", "FILE", settings.points.path,
-                     "points where the light is to be known: rows x,y,z,nx,ny,nz");
+    command.add_text(
+        "--points", "FILE", settings.points.path,
+        "points where the light is to be known: rows x,y,z,nx,ny,nz; without --time or "
+        "--max-rays they end after 50 million rays, more for many points");
     command.add_text("--points-output", "FILE", settings.points.output,
                      "CSV table of --points: irradiance, radiosity, standard error");
     add_whole<unsigned>(

@@ -284,12 +284,12 @@ Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference
             done.rows.back().error = reference->error(mesh, solution.radiosity);
         step_pictures.write(solution.radiosity, solution.steps);
         log_line(settings.verbosity, Verbosity::verbose, step_text(done.rows.back()));
+        preview.show(lit_scene(problem, solution), solution);
     };
     const auto after_step = [&](const StepRecord& record, const Solution& solution) {
         add_row(record);
         keep_light(solution);
         show_last_row(solution);
-        preview.show(lit_scene(problem, solution), solution);
         checkpointer.step_done(done.rows, record.seconds);
     };
     if (is_begun && !divided.steps.empty()) {
@@ -365,8 +365,11 @@ struct GivenLight {
 GivenLight give_light(const Problem& problem, Run& done, const Solution& solution,
                       Statistics& statistics, Preview& preview) {
     const SolveSettings& settings = problem.settings();
-    if (solution.steps == 0)
+    // Without a step, a file of the scene's own has the light of its lamps; values are not known.
+    if (solution.steps == 0 && !settings.file_bake.asked)
         return {};
+    const std::span<const NamedPoint> points =
+        solution.steps > 0 ? problem.loaded.points : std::span<const NamedPoint>();
     const LitScene lit = lit_scene(problem, solution);
     const bool gathers_here = gathers(settings) && settings.ranks->is_first();
     std::vector<NamedLayout> layouts;
@@ -378,9 +381,9 @@ GivenLight give_light(const Problem& problem, Run& done, const Solution& solutio
         layouts = lightmap_layouts(problem);
         if (done.camera)
             preview.begin_gathering(lit, solution, *done.camera);
-        given.gathered = gather_light(settings, lit, solution, problem.loaded.points,
-                                      done.camera.value_or(Camera()), layouts, problem.monitor,
-                                      statistics, {}, &preview);
+        given.gathered =
+            gather_light(settings, lit, solution, points, done.camera.value_or(Camera()), layouts,
+                         problem.monitor, statistics, {}, &preview);
     }
     given.lamps = find_lamp_light(settings,
                                   {lit, *done.solver, solution, given.gathered,

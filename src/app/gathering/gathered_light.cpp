@@ -113,7 +113,7 @@ void Gathering::find_sensors(std::span<const NamedPoint> points) {
 /// Without a limit of the user's, points take at most so many rays: as many as a run of some
 /// minutes has, or some times those of the solution, or of what each point needs at the least.
 void Gathering::limit(PointLightOptions& options) const {
-    constexpr std::uint64_t least = 100'000'000, times_solution = 4, times_first = 64;
+    constexpr std::uint64_t least = 50'000'000, times_solution = 4, times_first = 64;
     if (limits_.seconds)
         options.seconds = std::max(*limits_.seconds - started_.seconds(), 0.0);
     if (limits_.rays)

@@ -81,7 +81,7 @@ TEST_CASE("a signal while a picture is gathered leaves its rows above the light 
     REQUIRE(place.hemilux(common + "--no-gather -o patches.exr").code == 0);
     const Image whole = exr(place, "whole.exr"), patches = exr(place, "patches.exr");
     int before = 0, some = 0;
-    for (const int question : {1, 40, 80, 120, 160}) {
+    for (const int question : {1, 30, 60, 90, 120}) {
         const auto outcome =
             interrupted(place, common + "-o a.exr -o a.png -o a.csv --stats a.json", question);
         CAPTURE(question, outcome.err);
@@ -117,8 +117,7 @@ TEST_CASE("a signal while points are gathered leaves all rows, with an error tha
     REQUIRE(place.hemilux(common + "-q --points-output whole.csv").code == 0);
     const auto outcome = interrupted(place, common + "--points-output a.csv", 1);
     CHECK(outcome.code == 130);
-    CHECK_THAT(outcome.err, Contains("points 0 to 1,023 of 3,001 are gathered") ||
-                                Contains("points 0 to 1023 of 3001 are gathered"));
+    CHECK_THAT(outcome.err, Contains("points 0 to 1 023 of 3 001 are gathered"));
     CHECK_THAT(outcome.err, Contains("1 point away from them hold"));
     const auto whole = table(place.read("whole.csv")), rows = table(place.read("a.csv"));
     REQUIRE(rows.size() == count + 2);
@@ -138,7 +137,7 @@ TEST_CASE("a signal while points are gathered leaves all rows, with an error tha
     }
     CHECK(worst > 0);
     CHECK(within > (count - 1024) * 9 / 10);
-    CHECK(rows.back().size() < 8);
+    CHECK(rows.back()[7].empty());
 }
 
 TEST_CASE("a signal while a lightmap is gathered leaves its rows, in .glb and in .obj") {
@@ -147,18 +146,18 @@ TEST_CASE("a signal while a lightmap is gathered leaves its rows, in .glb and in
     REQUIRE(place.hemilux("solve room.obj --divide none --steps 1 -q -o room.glb").code == 0);
     const std::string scene = GENERATE("room.glb", "room.obj"), extension = scene.substr(4);
     const std::string common = "bake " + scene +
-                               " --emission *=1,1,1 --reflectance *=.5,.5,.5 "
+                               " --reflectance *=.5,.5,.5 "
                                "--steps 2 -t 1 --lightmap 96 --gather 4 ";
     REQUIRE(place.hemilux(common + "-q -o whole" + extension).code == 0);
-    const Image whole = exr(place, "whole-lightmap.exr");
+    const Image whole = exr(place, "whole.lightmap.exr");
     int some = 0;
-    for (const int question : {1, 60, 120, 180}) {
+    for (const int question : {1, 50, 80, 110}) {
         const auto outcome = interrupted(place, common + "-o lit" + extension, question);
         CAPTURE(scene, question, outcome.err);
         CHECK(outcome.code == 130);
         CHECK(place.has("lit" + extension));
         const int rows = rows_in(outcome.err);
-        const Image image = exr(place, "lit-lightmap.exr");
+        const Image image = exr(place, "lit.lightmap.exr");
         REQUIRE(image.width == whole.width);
         REQUIRE(image.height == whole.height);
         some += rows > 0 && rows < image.height;

@@ -254,7 +254,7 @@ TEST_CASE("gutters and covered texels take the light beside them") {
         for (Vec2& place : triangle.place)
             place = .25 * place + Vec2(6); // of 4 x 4 texels
     const TexelMap texels(floor.model.mesh, triangles, size);
-    GatheredLightmap lightmap{Image(size, size), std::vector<bool>(texels.count())};
+    GatheredLightmap lightmap(texels);
     for (std::size_t k = 0; k < texels.count(); ++k)
         if ((lightmap.known[k] = texels.shows(k) && k != texels.index(7, 7)))
             lightmap.image.pixels[k] = glm::vec3(2);
