@@ -127,8 +127,9 @@ void add_place_options(Command command, SolveSettings& settings) {
                    bake.set = choice.set;
                    bake.new_set = !choice.set;
                });
-    const Option size = add_whole<int>(command, "--lightmap", settings.lightmap, 16,
-                                       SolveSettings::max_lightmap, "texels along a side [by the faces and their area, 128 to 2048]");
+    const Option size =
+        add_whole<int>(command, "--lightmap", settings.lightmap, 16, SolveSettings::max_lightmap,
+                       "texels along a side [by the faces and their area, 128 to 2048]");
     add_number(command, "--texels-per-metre", "X", bake.texels_per_metre, positive,
                "as many texels as that needs, in an atlas of our own")
         .excludes(size);

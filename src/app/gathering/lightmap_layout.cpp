@@ -188,8 +188,8 @@ void LayoutFinder::set_finer(ObjectLightmap& found) const {
     if (bake_.binding != Binding::lit)
         return;
     const int most = std::max(1, max_shown_size / found.layout.size);
-    found.finer = static_cast<int>(std::clamp(
-        std::ceil(texture_density(mesh_, found.layout.triangles)), 1.0, double(most)));
+    found.finer = static_cast<int>(
+        std::clamp(std::ceil(texture_density(mesh_, found.layout.triangles)), 1.0, double(most)));
 }
 
 LightmapLayout LayoutFinder::own_layout(std::span<const ChartSide> sides, int size) {

@@ -164,8 +164,9 @@ std::string how_to_look(const SolveSettings& settings, const FileLightmap& file)
     case Binding::unlit:
         return "to see it, drag " + path + " into a glTF viewer or import it in Blender";
     case Binding::lightmap:
-        return "viewers without MOZ_lightmap show " + path + " as it was before (--bind lit shows " +
-               "it lit); engines take the light from " + light + of_set;
+        return "viewers without MOZ_lightmap show " + path +
+               " as it was before (--bind lit shows " + "it lit); engines take the light from " +
+               light + of_set;
     case Binding::texture:
         return "engines take the light from " + light + of_set;
     case Binding::occlusion:

@@ -65,9 +65,9 @@ std::string errors_text(const Statistics& s) {
     if (s.estimated_error_of == ErrorOf::gathered && !std::isfinite(s.estimated_error))
         return error;
     if (s.estimated_error_of == ErrorOf::gathered)
-        return error + ", surely at most " + percent(s.error_bound) +
-               ", of gathered light" + local_text(s.error_local) +
-               "; it reads patches of sampling error " + percent(s.error_sampling);
+        return error + ", surely at most " + percent(s.error_bound) + ", of gathered light" +
+               local_text(s.error_local) + "; it reads patches of sampling error " +
+               percent(s.error_sampling);
     if (!std::isfinite(s.error_division))
         return error + ", of the patches' mean light; --whole-error finds what they leave out";
     const std::string division =

@@ -138,10 +138,10 @@ class Writer {
     std::map<std::size_t, const LightmapPicture*> picture_of_material_; ///< that it is kept for
     using Lit =
         std::pair<std::optional<std::size_t>, const LightmapPicture*>; ///< none: the default
-    std::set<const Json*> bound_;            ///< primitives that have their materials
-    std::map<Lit, std::size_t> material_of_; ///< where it is another one than in the file
-    std::map<std::size_t, std::size_t> lit_of_;  ///< material that shows another one lit
-    std::optional<std::size_t> first_variant_; ///< its number: lit; the next one is as in the file
+    std::set<const Json*> bound_;               ///< primitives that have their materials
+    std::map<Lit, std::size_t> material_of_;    ///< where it is another one than in the file
+    std::map<std::size_t, std::size_t> lit_of_; ///< material that shows another one lit
+    std::optional<std::size_t> first_variant_;  ///< its number: lit; the next one is as in the file
     std::optional<std::size_t> sampler_;
 };
 
@@ -268,10 +268,9 @@ std::size_t Writer::add_texture(const std::string& name, std::string_view png, J
 }
 
 std::size_t Writer::add_texture(const LightmapPicture& picture) {
-    return add_texture(picture.name, picture.png,
-                       {{"bake", lightmap_.bake},
-                        {"texCoord", picture.set},
-                        {"intensity", picture.intensity}});
+    return add_texture(
+        picture.name, picture.png,
+        {{"bake", lightmap_.bake}, {"texCoord", picture.set}, {"intensity", picture.intensity}});
 }
 
 std::optional<std::size_t> Writer::add_shown(const LightmapPicture& picture) {
@@ -333,9 +332,8 @@ void Writer::add_variants(Json& primitive, std::size_t lit, std::size_t own,
         variants.push_back({{"name", "lit"}});
         variants.push_back({{"name", "lightmap"}});
     }
-    Json& mappings =
-        array_in(extension_of(primitive, variants_extension, place), "mappings",
-                 place + "/extensions/" + variants_extension);
+    Json& mappings = array_in(extension_of(primitive, variants_extension, place), "mappings",
+                              place + "/extensions/" + variants_extension);
     mappings.push_back({{"material", lit}, {"variants", {*first_variant_}}});
     mappings.push_back({{"material", own}, {"variants", {*first_variant_ + 1}}});
 }

@@ -21,7 +21,8 @@ namespace hemilux {
 struct LightmapPicture {
     std::string name = "lightmap"; ///< of its image and texture
     std::string png = {};
-    std::string shown = {}; ///< PNG: colours times light, as screens show them; of Binding::lit alone
+    std::string shown =
+        {}; ///< PNG: colours times light, as screens show them; of Binding::lit alone
     std::vector<std::size_t> origins = {}; ///< numbers of LitSource::origins() whose light it is
     double intensity = 1;                  ///< the irradiance of the largest number of the picture
     std::size_t set = 1;                   ///< of texture coordinates

@@ -48,6 +48,11 @@ GatherGrid grid_of(const TexelMap& texels, const std::vector<bool>& covered,
     return {columns, columns, std::move(points)};
 }
 
+/// The least rays of texels at edges of shadows, and of those that gather by themselves, as in
+/// corners. Both are few, and hold most of the error: more of their rays cost less than another
+/// round of all.
+constexpr unsigned min_shadow_rays = 32, min_own_rays = 8;
+
 /// Texels that gather by themselves share it up to this many steps, whatever is near, if nothing
 /// stands between them.
 constexpr float least_reach = 1.6f;
@@ -205,10 +210,10 @@ GatheredLightmap gather_lightmap(const Mesh& mesh, const Tracer& tracer, const S
                                  const LightmapOptions& options, const Workers& workers) {
     PictureGather gather(mesh, tracer, light, grid_of(texels, covered, workers),
                          {.rays = options.rays,
-                          .shadow_rays = 2 * options.rays, // edges are few and sharp
+                          .shadow_rays = std::max(2 * options.rays, min_shadow_rays),
                           .samples = 1,
                           .round = options.round,
-                          .coarse_rays = options.rays,
+                          .coarse_rays = std::max(options.rays, min_own_rays),
                           .only_reflected = options.bake == Bake::indirect,
                           .check = options.check});
     GatheredLightmap lightmap(texels);

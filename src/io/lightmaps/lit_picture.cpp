@@ -33,8 +33,8 @@ double twice_texels(const SceneTextures& textures, const TextureMap& map,
 /// Returns the light at a place between the middles of texels.
 Vec3 light_at(const Image& light, const Vec2& place) {
     const Vec2 last(light.width - 1, light.height - 1);
-    const Vec2 at = glm::clamp(place - .5, Vec2(0.0), last), low = glm::floor(at),
-               share = at - low, high = glm::min(low + 1.0, last);
+    const Vec2 at = glm::clamp(place - .5, Vec2(0.0), last), low = glm::floor(at), share = at - low,
+               high = glm::min(low + 1.0, last);
     const auto row = [&](double y) {
         return glm::mix(Vec3(light.at(int(low.x), int(y))), Vec3(light.at(int(high.x), int(y))),
                         share.x);
@@ -63,8 +63,7 @@ Shown shown_at(const Mesh& mesh, const TexelMap& texels, int x, int y, int sampl
         const Colours colours = colours_at(mesh, mesh.patches()[at.patch], at.position);
         sum.colours.reflectance += weight * colours.reflectance;
         sum.colours.emission += weight * colours.emission;
-        sum.cover += weight *
-                     cover_at_point(scene, at.facet, mesh.shape_of(at.facet), at.position);
+        sum.cover += weight * cover_at_point(scene, at.facet, mesh.shape_of(at.facet), at.position);
     }
     return sum;
 }

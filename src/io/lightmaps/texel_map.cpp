@@ -11,6 +11,11 @@
 namespace hemilux {
 namespace {
 
+/// The points of texels lie so far from their middles [texels]. Surfaces of models stand at round
+/// distances from each other, and so do the middles on a wall: one in the plane of a ceiling would
+/// have its light or not by a rounding error.
+constexpr Vec2 aside(1.0 / 97, 1.0 / 83);
+
 /// A point of a triangle by its coordinates (Hit), and its squared distance from a place.
 struct NearestPlace {
     double u, v, distance;
@@ -147,7 +152,7 @@ void TexelMap::paint(std::uint32_t number, OverlapCounts& overlaps) {
         const int right = texel_at(std::ceil(columns->second + reach), size_);
         for (int x = texel_at(std::floor(columns->first - reach), size_); x < right; ++x) {
             const Vec2 at(x + .5, y + .5);
-            const auto [u, v, square] = nearest_place_on(corner, at);
+            const double square = nearest_place_on(corner, at).distance;
             if (square > reach * reach)
                 continue;
             Texel& texel = texels_[index(x, y)];
@@ -163,8 +168,11 @@ void TexelMap::paint(std::uint32_t number, OverlapCounts& overlaps) {
                     overlaps.push_back({groups, {other, triangle.facet, 1}});
             }
             if (const auto distance = static_cast<float>(std::sqrt(square));
-                distance < texel.distance)
-                texel = {number, static_cast<float>(u), static_cast<float>(v), distance};
+                distance < texel.distance) {
+                const NearestPlace shown = nearest_place_on(corner, at + aside);
+                texel = {number, static_cast<float>(shown.u), static_cast<float>(shown.v),
+                         distance};
+            }
         }
     }
 }

@@ -33,8 +33,9 @@ TEST_CASE("each object has its lightmap, its texture and its error") {
     SmallRoom room;
     room.cube_twice = true;
     place.write("room.gltf", room.text());
-    const auto run = place.hemilux("bake room.gltf -o lit.glb --per-object --bind lightmap "
-                                   "--error 10% --max-rays 200000 --gather 4 --lightmap 64 --stats run.json");
+    const auto run =
+        place.hemilux("bake room.gltf -o lit.glb --per-object --bind lightmap "
+                      "--error 10% --max-rays 200000 --gather 4 --lightmap 64 --stats run.json");
     CAPTURE(run.err);
     REQUIRE(run.code == 0);
     const std::string names[] = {"floor", "lamp", "cube", "other_cube"};

@@ -62,7 +62,7 @@ TEST_CASE("a lit picture has the texels of textures and the light between those 
             CHECK(shown.b == Approx(.25 + white * (y + .5) / 3));
             CHECK(picture.emitted.at(x, y) == glm::vec3(.25f));
         }
-    CHECK(picture.light.at(1, 12) == glm::vec3(0.0f)); // beyond the margin
+    CHECK(picture.light.at(0, 12) == glm::vec3(0.0f)); // beyond the margin
     CHECK(picture.light.at(4, 12).g > 0);              // within it
 }
 

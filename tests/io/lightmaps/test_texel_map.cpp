@@ -80,7 +80,8 @@ TEST_CASE("light does not cross a wall that is thinner than a texel") {
     }
 }
 
-TEST_CASE("a texel shows the point at its middle, and the nearest one beside a chart") {
+TEST_CASE("a texel shows a point at its middle, and the nearest one beside a chart") {
+    constexpr double aside = .02; // of the middle, so that none lies in the plane of a surface
     const Mesh mesh(box_room({0, 0, 0}, {3, 2, 5}, 2, {{"a", Vec3(0.5), Vec3(1)}}, {}));
     constexpr int size = 128;
     const std::vector<LightmapChart> charts = find_charts(mesh, size);
@@ -95,14 +96,40 @@ TEST_CASE("a texel shows the point at its middle, and the nearest one beside a c
             const SurfacePoint point = texels.point(texel);
             const LightmapChart& chart = charts[texels.triangle(texel).chart];
             const double gap = glm::distance(chart.place(point.position), Vec2(x + .5, y + .5));
-            CHECK(gap == Approx(texels.distance(texel)).margin(1e-4));
+            CHECK(gap == Approx(texels.distance(texel)).margin(aside));
             CHECK(mesh.patches()[point.patch].facet == point.facet);
             CHECK(point.normal == mesh.patches()[point.patch].normal);
             ++(texels.is_inside(texel) ? inside : beside);
-            CHECK(gap <= TexelMap::reach + 1e-4);
+            CHECK(gap <= TexelMap::reach + aside);
         }
     CHECK(inside > 10'000);
     CHECK(beside > 500);
+}
+
+TEST_CASE("middles of texels in the plane of a lamp have its light as the points beside them") {
+    // A lamp cuts a wall at a height at which a row of texels has its middles.
+    Scene scene;
+    scene.vertices = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0},
+                      {0, 1, 0}, {0, 1, 1}, {2, 1, 1}, {2, 1, 0}};
+    scene.materials = {{.name = "wall"}, {.name = "lamp", .emission = Vec3(1)}};
+    scene.groups = {"all"};
+    scene.facets = {{{0, 1, 2, 3}, 0, 0, 0}, {{4, 7, 6, 5}, 1, 1, 0}};
+    scene.faces = 2;
+    const Mesh mesh(scene);
+    std::vector<PlacedTriangle> triangles;
+    for (const bool second : {false, true})
+        triangles.push_back({0, false, second, 0,
+                             second ? std::array<Vec2, 3>{Vec2(.5, .5), {20.5, 20.5}, {.5, 20.5}}
+                                    : std::array<Vec2, 3>{Vec2(.5, .5), {20.5, .5}, {20.5, 20.5}}});
+    const TexelMap texels(mesh, triangles, 22);
+    int above = 0, below = 0;
+    for (int x = 1; x < 20; ++x) {
+        const double height = mesh.frame().to_world(texels.point(texels.index(x, 10)).position).y;
+        above += height > 1 + 1e-4;
+        below += height < 1 - 1e-4;
+    }
+    CHECK(above + below == 19); // not in the plane
+    CHECK((above == 0 || below == 0));
 }
 
 TEST_CASE("overlaps of texture coordinates are found by objects") {

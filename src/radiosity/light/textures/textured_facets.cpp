@@ -175,15 +175,16 @@ Colours colours_at_point(const Scene& scene, std::uint32_t facet, const Polygon&
     const Material& material = scene.materials[number];
     const SceneTextures& textures = textures_of(scene);
     const auto colour = [&](const TextureMap& map, const Vec3& otherwise) {
-        return map.texture ? map.factor * map.texture->texel_at(
-                                              texture_place(textures, map, facet, at), map.wraps)
-                           : otherwise;
+        return map.texture
+                   ? map.factor *
+                         map.texture->texel_at(texture_place(textures, map, facet, at), map.wraps)
+                   : otherwise;
     };
     const auto& [reflectance, emission, tinted] = textures.of_material[number];
     return {colour(reflectance, material.reflectance),
-            tinted ? colour(emission, emission.factor) *
-                         tint_at(textures, facet, at.second, at.place)
-                   : colour(emission, material.emission)};
+            tinted
+                ? colour(emission, emission.factor) * tint_at(textures, facet, at.second, at.place)
+                : colour(emission, material.emission)};
 }
 
 double cover_at_point(const Scene& scene, std::uint32_t facet, const Polygon& whole,
