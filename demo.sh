@@ -1,34 +1,63 @@
 #!/bin/sh
-# Builds hemilux and shows what it is about: the paper's method with its true error, a divided
-# hemisphere, error against rays for three methods, and the default solve with its picture.
-# Installs missing Debian packages first. Run it from any folder.
+# Shows what hemilux is about: a room lit by the default method, then the paper's method with its true
+# error, a divided hemisphere, and error against rays for three methods. Run it from any folder.
+#
+# Where an archive of cpack is unpacked here or beside this folder, it takes hemilux-*/bin/hemilux. Else it
+# compiles what a picture needs, draws the room, and compiles the rest: build/release/hemilux. Installs
+# missing Debian packages first.
 set -eu
 cd "$(dirname "$0")"
 
-scripts/install_packages.sh
-cmake --preset release >/dev/null
-cmake --build --preset release --target hemilux_program
-
 scene=examples/scenes/room_1002.obj
 out=out/demo
-hemilux=build/release/hemilux
+hemilux=
+for packaged in hemilux-*/bin/hemilux ../hemilux-*/bin/hemilux; do
+    [ ! -x "$packaged" ] || hemilux=$packaged
+done
 mkdir -p "$out"
 
+# compile WHAT SECONDS FILE TARGET: compiles a target, and says before how long it takes where FILE, which comes of it,
+# is not there. SECONDS are of a processor.
+compile() {
+    cores=$(nproc 2>/dev/null || echo 2)
+    [ -e "build/release/$3" ] || echo "Compiling $1: about $(($2 / cores)) s where $cores cores have nothing else to do"
+    cmake --build --preset release --parallel "$cores" --target "$4"
+}
+
+if [ -n "$hemilux" ]; then
+    echo "Taking $hemilux, so nothing is compiled"
+    first=$hemilux
+else
+    scripts/install_packages.sh
+    cmake --preset release >/dev/null
+    compile "what a picture needs" 150 first/hemilux hemilux_first
+    hemilux=build/release/hemilux
+    first=build/release/first/hemilux
+    # Until the rest is there.
+    [ -e $hemilux ] || cp $first $hemilux
+fi
+
 echo
-echo "1. The room by the paper's method, and how far it is from a reference"
+echo "1. The default: as many patches and rays as an error of 5 % of the light on the surfaces takes"
+$first solve "$scene" -o "$out/picture.png" -o "$out/mesh.ply" --stats "$out/statistics.json"
+echo
+echo "The room, lit: $PWD/$out/picture.png"
+echo
+if [ "$first" != "$hemilux" ]; then
+    compile "the rest" 90 libhemilux_app.a hemilux_program
+    echo
+fi
+echo "2. The room by the paper's method, and how far it is from a reference"
 $hemilux solve "$scene" --method matrix --error 0.002 -q -o "$out/reference.csv"
 $hemilux solve "$scene" --method hemisphere --steps 32 --reference "$out/reference.csv" \
     -o "$out/paper.csv" -o "$out/paper.png"
 echo
-echo "2. The hemisphere of one patch: surfaces counted in each direction, divided where there are many"
+echo "3. The hemisphere of one patch: surfaces counted in each direction, divided where there are many"
 $hemilux density "$scene" -o "$out/hemisphere.svg"
 echo
-echo "3. Error against rays and run time: the paper's method, random directions, and the default method"
+echo "4. Error against rays and run time: the paper's method, random directions, and the default method"
 $hemilux compare "$scene" --methods hemisphere,progressive-monte-carlo,stored-transport \
     --reference "$out/reference.csv" --budget-rays 500000 -q -o "$out/compare"
-echo
-echo "4. The default: as many patches and rays as an error of 5 % of the light on the surfaces takes"
-$hemilux solve "$scene" -o "$out/picture.png" -o "$out/mesh.ply" --stats "$out/statistics.json"
 
 cat <<END
 

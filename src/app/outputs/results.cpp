@@ -193,7 +193,7 @@ void write_report(const SolveSettings& settings, const Results& results) {
                           settings.view.exposure, results.lights,
                           results.unit,           results.lamps};
     const bool by_densities =
-        settings.method == &method_of(Role::paper) && !guide_of(options) && !settings.plain;
+        settings.method->role == Role::paper && !guide_of(options) && !settings.plain;
     if (!by_densities)
         return write_report_page(settings.report, content);
     // The densities are counted again, as the method does not keep all.

@@ -10,7 +10,7 @@
 namespace hemilux {
 namespace {
 
-bool keeps_hemispheres(const Method& method) { return &method == &method_of(Role::paper); }
+bool keeps_hemispheres(const Method& method) { return method.role == Role::paper; }
 
 /// Returns the uses of the options of methods. `layers` says that there are pictures with a layer
 /// of densities.

@@ -35,7 +35,7 @@ std::string point_list(std::span<const Vec2> points) {
     return text;
 }
 
-std::string escaped(std::string_view text) {
+std::string as_xml(std::string_view text) {
     std::string result;
     for (const char c : printable(text)) {
         if (c == '&')
@@ -86,14 +86,14 @@ void SvgCanvas::text(const Vec2& at, std::string_view text, const TextStyle& sty
                                                                 : "end";
     body_ += "<text" + class_ + attribute("x", number(at.x)) + attribute("y", number(at.y)) +
              attribute("font-size", number(style.size)) + attribute("text-anchor", anchor) +
-             attribute("fill", hexadecimal(style.colour)) + ">" + escaped(text) + "</text>\n";
+             attribute("fill", hexadecimal(style.colour)) + ">" + as_xml(text) + "</text>\n";
 }
 
 void SvgCanvas::dot(const Vec2& at, Colour colour, std::string_view text) {
     body_ += "<circle" + class_ + attribute("cx", number(at.x)) + attribute("cy", number(at.y)) +
              attribute("r", "3.5") + attribute("fill", "#ffffff") +
              attribute("stroke", hexadecimal(colour)) + attribute("stroke-width", "1.4") +
-             "><title>" + escaped(text) + "</title></circle>\n";
+             "><title>" + as_xml(text) + "</title></circle>\n";
 }
 
 void SvgCanvas::begin_class(std::string_view name) {

@@ -21,7 +21,7 @@ namespace {
 
 /// The least number of rounds of points: many, since the spread of a few would end them when it
 /// happens to be small.
-constexpr std::size_t min_rounds = 16;
+constexpr std::size_t fewest_rounds = 16;
 
 /// The most points times the length of gathers in a round.
 constexpr std::size_t longest_round = 4096;
@@ -110,7 +110,7 @@ SquaredError ErrorAtPoints::find(const OtherError& other, std::size_t points_per
             return {};
         rounds.add(sums.error / size_);
         noise.add(sums.by_noise / (size_ * size_));
-        if (rounds.count < min_rounds)
+        if (rounds.count < fewest_rounds)
             continue;
         const double enough = std::max(well_known * (rounds.mean() - other.square), negligible);
         // Rounds may be alike by chance: they differ at least by the noise within them.

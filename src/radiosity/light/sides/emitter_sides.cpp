@@ -13,7 +13,7 @@ constexpr std::uint32_t rays_a_side = 128;
 constexpr double nothing = 0.01, something = 0.05; ///< shares of the rays
 constexpr double hardly_any = 0.1;                 ///< share of what the other side sees
 constexpr double much_nearer = 1.0 / 8;
-constexpr double near = 1.0 / 3, touching = 1.0 / 10; ///< shares of an emitter's size
+constexpr double near = 1.0 / 3, contact = 1.0 / 10; ///< shares of an emitter's size
 
 /// The surfaces that the rays of one side hit.
 struct View {
@@ -53,11 +53,11 @@ class EmittingShell {
         const double reach =
             shell.closed ? std::numeric_limits<double>::infinity() : std::sqrt(area_);
         if (const auto only = only_one(front, back))
-            return EmitterSide{*only, (*only ? behind : ahead) > touching * reach || shell.closed};
+            return EmitterSide{*only, (*only ? behind : ahead) > contact * reach || shell.closed};
         const double nearer = std::min(ahead, behind);
         if (!(nearer < much_nearer * std::max(ahead, behind)) || !(nearer < near * reach))
             return std::nullopt;
-        return EmitterSide{ahead < behind, shell.closed || nearer < touching * reach};
+        return EmitterSide{ahead < behind, shell.closed || nearer < contact * reach};
     }
 
   private:
