@@ -3,7 +3,7 @@
 //
 //     # for all subcommands that have the option
 //     error = "1%"
-//     two-sided = true
+//     sides = "both"
 //     [solve]
 //     output = ["room.png", "room.csv"]
 //     sky = [1, 1, 1.2]

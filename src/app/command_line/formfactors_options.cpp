@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* formfactors_examples = R"(Examples:
   hemilux formfactors room.obj -o factors.csv
-  hemilux formfactors room.obj --exact -o factors.npy -o factors.csv
+  hemilux formfactors room.obj --factors exact -o factors.npy -o factors.csv
   hemilux formfactors room.obj --factors hemicube:256 -o factors.csv
 )";
 

@@ -61,19 +61,21 @@ Mesh mesh_of(Scene scene, Sides sides) {
     return Mesh(std::move(scene), {.two_sided = sides == Sides::both});
 }
 
-/// Returns the share of what can be looked at that light reaches.
-double share_lit(const Mesh& mesh, const Tracer& tracer, Sides sides, const ViewSettings& view,
-                 const std::optional<Camera>& camera) {
+/// Returns whether light reaches what can be looked at.
+bool is_lit(const Mesh& mesh, const Tracer& tracer, Sides sides, const ViewSettings& view,
+            const std::optional<Camera>& camera) {
+    constexpr double min_of_picture = 0.01, min_of_spaces = 0.1;
     if (camera) {
         const auto places = places_of_picture(mesh, tracer, *camera, view.size);
         if (!places.empty())
-            return share_reached_by_light(mesh, tracer, places);
+            return share_reached_by_light(mesh, tracer, places) >= min_of_picture;
     }
-    if (sides == Sides::front)
-        return share_reached_by_light(mesh, tracer, find_free_space(mesh, tracer).seen);
+    const auto spaces_are_lit = [&tracer](const Mesh& sided) {
+        const FreeSpace free = find_free_space(sided, tracer, Around::always);
+        return share_of_lit_spaces(sided, tracer, free) >= min_of_spaces;
+    };
     // Which sides look away from the light is found later, so any side may be lit.
-    const Mesh both = mesh_of(mesh.scene(), Sides::both);
-    return share_reached_by_light(both, tracer, find_free_space(both, tracer).seen);
+    return spaces_are_lit(sides == Sides::front ? mesh : mesh_of(mesh.scene(), Sides::both));
 }
 
 /// Returns a coordinate to a hundredth of `unit`.
@@ -151,13 +153,6 @@ void add(PutIn& to, SceneSettings& settings, const Dark& dark, const DefaultLigh
         add_lamp(to, settings, lamp_text(lamp, dark.mesh.frame(), dark.up));
     if (light.sky)
         add_daylight(to, settings, light.sun);
-}
-
-/// Returns whether what can be looked at is lit in a scene with the lights of the settings.
-bool is_lit(const Mesh& mesh, const Tracer& tracer, Sides sides, const ViewSettings& view,
-            const std::optional<Camera>& camera) {
-    constexpr double enough = 0.03; // of the places
-    return share_lit(mesh, tracer, sides, view, camera) >= enough;
 }
 
 /// Returns whether the camera sees next to nothing by the light that was put in.

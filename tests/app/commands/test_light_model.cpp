@@ -113,6 +113,18 @@ TEST_CASE("a thing is lit by sky and sun, also where z points upwards") {
     }
 }
 
+TEST_CASE("a lamp that lights a small place only is lamp enough") {
+    const Workplace place;
+    ObjScene scene;
+    scene.box(-5, -0.1, -5, 5, 0, 5, false);
+    scene.write(place, "ground.obj");
+    const auto run = place.hemilux("ground.obj --error 20% -o a.csv --light 'spot at 0,3,0 towards "
+                                   "0,-1,0 inner 20 outer 25 watts 9'");
+    CAPTURE(run.err);
+    CHECK(run.code == 0);
+    CHECK(put_in(run.err).empty());
+}
+
 TEST_CASE("a lamp in a closed case does not light the room around it; one in the room does") {
     for (const bool is_shut : {true, false}) {
         CAPTURE(is_shut);

@@ -78,7 +78,7 @@ DefaultLight choose_default_light(const Mesh& mesh, const Tracer& tracer, const 
     }
     light.sky = light.sky || light.lamps.empty();
     if (light.sky)
-        light.sun = sun_of(mesh, tracer, free.seen, up);
+        light.sun = sun_of(mesh, tracer, free.seen(), up);
     return light;
 }
 

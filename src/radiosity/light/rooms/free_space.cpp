@@ -41,7 +41,7 @@ std::array<Vec3, rays_around> directions_around() {
 }
 
 /// What the rays from a place met.
-struct Around {
+struct View {
     int fronts = 0, backs = 0, open = 0;
     /// Nearly all that is near shows its back, or nothing is near.
     [[nodiscard]] bool is_void() const {
@@ -53,13 +53,12 @@ struct Around {
 /// The grid, and which of its places hang together.
 class Grid {
   public:
-    Grid(const Mesh& mesh, const Tracer& tracer) : mesh_(mesh), tracer_(tracer) {
+    Grid(const Mesh& mesh, const Tracer& tracer, Around around) : mesh_(mesh), tracer_(tracer) {
         constexpr double wanted = 6000, max_side = 64;
         box_ = box_of_near(mesh);
         // Around a thing, or over a sheet, there is room as well.
         const Vec3 margin = glm::max(0.02 * box_.extent(), Vec3(0.05 * largest(box_.extent())));
-        const bool fills = fills_its_box();
-        if (fills) {
+        if (around == Around::always || fills_its_box()) {
             box_.low -= margin;
             box_.high += margin;
         }
@@ -111,9 +110,9 @@ class Grid {
         return box_.low + box_.extent() * cell / Vec3(n_[0], n_[1], n_[2]);
     }
 
-    Around around(const Vec3& from, std::vector<SeenPlace>* seen) const {
+    View around(const Vec3& from, std::vector<SeenPlace>* seen) const {
         static const std::array<Vec3, rays_around> directions = directions_around();
-        Around result;
+        View result;
         for (const Vec3& direction : directions) {
             const Ray ray{.origin = from, .direction = direction};
             const std::optional<Hit> hit = tracer_.closest(ray);
@@ -130,12 +129,16 @@ class Grid {
     }
 
     void look_around() {
-        for (const Vec3& from : places_) {
-            std::vector<SeenPlace> seen;
-            around_.push_back(around(from, &seen));
-            if (!around_.back().is_void())
-                seen_.insert(seen_.end(), seen.begin(), seen.end());
+        seen_.resize(places_.size());
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < places_.size(); ++k) {
+            around_.push_back(around(places_[k], &seen_[k]));
+            if (around_[k].is_void())
+                seen_[k].clear();
+            count += seen_[k].size();
         }
+        constexpr std::size_t max_seen = 2000;
+        step_ = count / max_seen + 1;
     }
 
     std::uint32_t root(std::uint32_t k) {
@@ -160,7 +163,8 @@ class Grid {
     }
 
     FreeSpace gather() {
-        constexpr std::size_t min_places = 8, max_seen = 2000;
+        constexpr std::size_t min_places = 8;
+        std::size_t number = 0; // of what is seen
         FreeSpace result;
         std::vector<Space> all(parent_.size());
         for (std::uint32_t k = 0; k < parent_.size(); ++k) {
@@ -168,6 +172,9 @@ class Grid {
                 continue;
             Space& space = all[root(k)];
             space.places.push_back(places_[k]);
+            for (const SeenPlace& place : seen_[k])
+                if (number++ % step_ == 0)
+                    space.seen.push_back(place);
             space.openness += double(around_[k].open) / rays_around;
             ++result.places;
         }
@@ -181,9 +188,6 @@ class Grid {
         });
         const Vec3 extent = box_.extent();
         result.volume_of_place = extent.x * extent.y * extent.z / double(parent_.size());
-        const std::size_t step = seen_.size() / max_seen + 1;
-        for (std::size_t k = 0; k < seen_.size(); k += step)
-            result.seen.push_back(seen_[k]);
         return result;
     }
 
@@ -192,9 +196,10 @@ class Grid {
     Box box_;
     std::array<std::uint32_t, 3> n_{};
     std::vector<Vec3> places_;
-    std::vector<Around> around_;
-    std::vector<std::uint32_t> parent_; ///< of a forest whose trees are the spaces
-    std::vector<SeenPlace> seen_;
+    std::vector<View> around_;
+    std::vector<std::uint32_t> parent_;        ///< of a forest whose trees are the spaces
+    std::vector<std::vector<SeenPlace>> seen_; ///< by place
+    std::size_t step_ = 1;                     ///< one of so many is kept
 };
 
 } // namespace
@@ -207,8 +212,15 @@ std::optional<SeenPlace> place_seen(const Mesh& mesh, const Tracer& tracer, cons
                      mesh.whole_side(hit->facet, !hit->front).normal, hit->facet};
 }
 
-FreeSpace find_free_space(const Mesh& mesh, const Tracer& tracer) {
-    return Grid(mesh, tracer).find();
+std::vector<SeenPlace> FreeSpace::seen() const {
+    std::vector<SeenPlace> all;
+    for (const Space& space : spaces)
+        all.insert(all.end(), space.seen.begin(), space.seen.end());
+    return all;
+}
+
+FreeSpace find_free_space(const Mesh& mesh, const Tracer& tracer, Around around) {
+    return Grid(mesh, tracer, around).find();
 }
 
 } // namespace hemilux

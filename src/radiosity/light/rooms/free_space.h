@@ -32,20 +32,26 @@ struct SeenPlace {
 
 /// Places that hang together.
 struct Space {
-    std::vector<Vec3> places; ///< local frame
-    double openness = 0;      ///< share of the rays from there that leave the scene [-]
+    std::vector<Vec3> places;    ///< local frame
+    std::vector<SeenPlace> seen; ///< some of what can be looked at from there
+    double openness = 0;         ///< share of the rays from there that leave the scene [-]
 };
 
 struct FreeSpace {
     /// The spaces that have a few places at least, the largest first. They keep to the box of the
     /// scene, without suns and skies.
     std::vector<Space> spaces;
-    std::size_t places = 0;      ///< number of places, those of small spaces too
-    double volume_of_place = 0;  ///< local units
-    std::vector<SeenPlace> seen; ///< what can be looked at from all spaces, two thousand at most
+    std::size_t places = 0;     ///< number of places, those of small spaces too
+    double volume_of_place = 0; ///< local units
+    /// Returns what can be looked at from all spaces, about two thousand places.
+    [[nodiscard]] std::vector<SeenPlace> seen() const;
 };
 
+/// What of a scene is looked at: the box of its near facets, with some room around it where nothing
+/// else is free, or in any case.
+enum class Around { where_needed, always };
 /// Finds the spaces; the same mesh gives the same ones.
-[[nodiscard]] FreeSpace find_free_space(const Mesh& mesh, const Tracer& tracer);
+[[nodiscard]] FreeSpace find_free_space(const Mesh& mesh, const Tracer& tracer,
+                                        Around around = Around::where_needed);
 
 } // namespace hemilux

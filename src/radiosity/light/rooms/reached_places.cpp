@@ -111,4 +111,15 @@ double share_reached_by_light(const Mesh& mesh, const Tracer& tracer,
     return double(reached) / double(places.size());
 }
 
+double share_of_lit_spaces(const Mesh& mesh, const Tracer& tracer, const FreeSpace& free) {
+    constexpr double min_reached = 0.003; // less may be a ray through a crack
+    double lit = 0, all = 0;
+    for (const Space& space : free.spaces) {
+        const auto places = double(space.places.size());
+        all += places;
+        lit += share_reached_by_light(mesh, tracer, space.seen) > min_reached ? places : 0;
+    }
+    return all > 0 ? lit / all : 0;
+}
+
 } // namespace hemilux

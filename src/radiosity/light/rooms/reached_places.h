@@ -14,4 +14,10 @@ namespace hemilux {
 [[nodiscard]] double share_reached_by_light(const Mesh& mesh, const Tracer& tracer,
                                             std::span<const SeenPlace> places);
 
+/// Returns the share of all places [-] from which lit ones can be looked at: those of spaces to
+/// which light finds its way. So a spot on a wide floor lights all of its space, and a lamp within
+/// a closed case lights the case.
+[[nodiscard]] double share_of_lit_spaces(const Mesh& mesh, const Tracer& tracer,
+                                         const FreeSpace& free);
+
 } // namespace hemilux

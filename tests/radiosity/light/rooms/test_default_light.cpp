@@ -2,6 +2,7 @@
 // on families of scenes of any size, with y or z upwards.
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/rooms/default_light.h"
 #include "radiosity/light/rooms/reached_places.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -47,9 +48,7 @@ struct Looked {
     [[nodiscard]] DefaultLight light(int up) const {
         return choose_default_light(mesh, *made.tracer, free, up);
     }
-    [[nodiscard]] double reached() const {
-        return share_reached_by_light(mesh, *made.tracer, free.seen);
-    }
+    [[nodiscard]] double reached() const { return share_of_lit_spaces(mesh, *made.tracer, free); }
 
     Mesh mesh;
     MadeTracer made;
@@ -176,7 +175,7 @@ TEST_CASE("Light that stays within a case does not reach what can be looked at")
         CHECK(Looked(placed(scene, placing)).reached() == 0);
         add_scene(scene, case_with_lamp({1, 0, 1}, {1.3, 0.5, 1.5}, 1e6));
         const Looked looked(placed(scene, placing));
-        CHECK(looked.reached() < 0.03);
+        CHECK(looked.reached() < 0.02);
         CHECK(looked.light(placing.up).lamps.size() == 1);
     }
 }
@@ -203,6 +202,28 @@ TEST_CASE("A lamp in the room reaches it, however faint or small it is") {
             const double other = Looked(placed(scene, placing)).reached();
             CHECK(std::max(one, other) > 0.9); // one of them shines downwards
         }
+}
+
+TEST_CASE("One lit room of several counts as much as its size") {
+    for (const int count : {2, 4}) {
+        Scene scene = box_room({-4.2, 0, 0}, {-0.2, 2.5, 5}, 1, paint, {0, 1, 0, 0, 0, 0});
+        add_scene(scene, rooms(count - 1));
+        CHECK(Looked(scene).reached() == Approx(1.0 / count).margin(0.05));
+    }
+}
+
+TEST_CASE("A spot that lights little of a wide floor lights its space") {
+    Scene scene;
+    scene.materials = paint;
+    scene.groups = {"all"};
+    add_block(scene, {-5, -0.1, -5}, {5, 0, 5});
+    add_point_emitter(scene, {.name = "spot",
+                              .position = {0, 2, 0},
+                              .axis = {0, -1, 0},
+                              .intensity = Vec3(1),
+                              .cos_inner = std::cos(0.39),
+                              .cos_outer = std::cos(0.4)});
+    CHECK(Looked(scene).reached() > 0.9);
 }
 
 TEST_CASE("The same scene gets the same light") {
