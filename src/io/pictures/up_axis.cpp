@@ -204,7 +204,7 @@ UpGuess guess_up_axis(const Mesh& mesh, std::optional<int> usual) {
     const bool by_custom =
         usual == (is_z ? 2 : 1) && std::abs(strongest->for_z) < std::abs(prior_of(usual));
     return {is_z ? 2 : 1,
-            by_custom ? "files of this kind mostly have it so"
+            by_custom ? "the kind of file or its camera has it so"
                       : std::string(strongest->reason) + " it",
             sum};
 }
