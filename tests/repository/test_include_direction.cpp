@@ -71,6 +71,7 @@ const std::vector<std::string> rooms{
     "io/results",
     "io/pictures",
     "io/rendering",
+    "io/picture_check",
     "io/meshes",
     "io/charts",
     "io/lightmaps",

@@ -49,7 +49,8 @@ struct Grid {
 /// The quality of a view, estimated by a few rays.
 struct Rating {
     double score = 0;
-    double enclosed = 0; ///< share of rays that meet a front of the scene
+    double met = 0;      ///< share of rays that meet the scene
+    double enclosed = 0; ///< share of rays that meet a front of it
     double lit = 0;      ///< share of rays that meet what is lit, by how lit it is
 };
 
@@ -116,10 +117,12 @@ class Judge {
                 continue;
             const Hit hit = tracer_.locate(rays[k], hits[k].facet);
             const std::uint32_t patch = mesh_.patch_at(hit);
+            const Scene& scene = mesh_.scene();
+            const bool is_near = !scene.materials[scene.facets[hit.facet].material].is_far;
+            rating.met += is_near ? share : 0;
             if (patch == none)
                 continue;
-            if (!mesh_.material(patch).is_far)
-                rating.enclosed += share;
+            rating.enclosed += is_near ? share : 0;
             if (lit_[patch] > 0) {
                 seen.push_back({kind_of(mesh_, mesh_.patches()[patch]), lit_[patch], hit.t});
                 rating.lit += share * lit_[patch];
@@ -147,9 +150,26 @@ class Judge {
     double aspect_;
 };
 
+/// Returns whether a sun or a sky lights a scene so that most of what views from outside show of it
+/// is lit.
+bool is_lit_from_outside(const Mesh& mesh, std::span<const ViewCandidate> views,
+                         std::span<const Rating> ratings) {
+    constexpr double most = 0.5;
+    const auto& materials = mesh.scene().materials;
+    if (std::ranges::none_of(materials, &Material::is_far))
+        return false;
+    double lit = 0, met = 0;
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (views[i].kind == ViewKind::object) {
+            lit += ratings[i].lit;
+            met += ratings[i].met;
+        }
+    return lit > most * met;
+}
+
 /// Returns whether hardly any view from within the scene's box shows walls all around that are lit
-/// beside what is seen from outside. Such a scene is a thing, not a set of rooms.
-bool is_object(std::span<const ViewCandidate> views, std::span<const Rating> ratings) {
+/// beside what is seen from outside.
+bool has_no_rooms(std::span<const ViewCandidate> views, std::span<const Rating> ratings) {
     constexpr double all_around = 0.8, as_lit = 0.1, min_of_rooms = 0.1;
     double lit_outside = 0;
     for (std::size_t i = 0; i < views.size(); ++i)
@@ -200,7 +220,7 @@ AutomaticView automatic_view(const Mesh& mesh, const Tracer& tracer,
     std::vector<std::size_t> which(views.size());
     std::iota(which.begin(), which.end(), std::size_t{0});
     rate(judge, views, which, coarse, ratings, wish.threads);
-    const bool object = is_object(views, ratings);
+    const bool object = has_no_rooms(views, ratings) || is_lit_from_outside(mesh, views, ratings);
     if (object)
         std::erase_if(which, [&](std::size_t i) { return views[i].kind != ViewKind::object; });
     std::ranges::stable_sort(which, std::greater(),

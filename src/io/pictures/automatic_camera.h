@@ -22,7 +22,8 @@ struct AutomaticView {
 
 /// Tries many places and directions with a few rays each, and chooses the one that shows the most
 /// lit surface, of the most kinds. What emitters emit does not count as lit. Where hardly any view
-/// from within shows lit walls all around, the scene is a thing and is seen from outside.
+/// from within shows lit walls all around, or a sun or sky lights most of the outside, the scene is
+/// a thing and is seen from outside.
 /// `radiosity` [W/m2] has one value per patch. The same arguments give the same view.
 [[nodiscard]] AutomaticView automatic_view(const Mesh& mesh, const Tracer& tracer,
                                            std::span<const Vec3> radiosity,

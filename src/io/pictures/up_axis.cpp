@@ -31,14 +31,17 @@ double hint(double of_z, double of_y, double limit) {
     return std::clamp(elementary::log(of_z / of_y), -limit, limit);
 }
 
-/// Returns whether a name says that the surface lies flat.
+/// Returns whether a name says that the surface lies flat, by a word or its beginning.
 bool is_name_of_floor(std::string name) {
     std::ranges::transform(name, name.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     constexpr std::array<std::string_view, 6> words = {"floor", "ceiling", "ground",
                                                        "roof",  "carpet",  "terrain"};
-    return std::ranges::any_of(
-        words, [&](std::string_view word) { return name.find(word) != std::string::npos; });
+    return std::ranges::any_of(words, [&](std::string_view word) {
+        const std::size_t at = name.find(word);
+        return at == 0 ||
+               (at != std::string::npos && !std::isalpha(static_cast<unsigned char>(name[at - 1])));
+    });
 }
 
 std::vector<bool> are_names_of_floors(std::span<const std::string> names) {
@@ -83,28 +86,37 @@ void add_far(Sums& sums, const Patch& patch, const Vec3& emission) {
     sums.far += light;
 }
 
-/// Returns how well a scene stands on its lowest faces along an axis: the share of its breadth [-],
-/// in the narrower direction, that they span. It is 0 where the middle of the scene is not above
-/// them. Only faces that lie there as a whole count: a sheet does not stand on its edge.
-double standing(const Mesh& mesh, const Sums& sums, int axis) {
-    constexpr double thin = 0.003;
-    const Vec3 extent = glm::max(sums.box.extent(), Vec3(1e-9));
-    const double end = sums.box.low[axis] + thin * extent[axis];
-    Box contact;
-    for (const Patch& patch : mesh.patches())
-        if (!mesh.material(patch).is_far) {
-            const Box box = box_of(patch.shape.corner);
-            if (box.high[axis] <= end)
-                contact.include(box);
-        }
+/// Returns the share of a scene's breadth [-], in the narrower direction across an axis, that a box
+/// of its lowest parts spans. It is 0 where the middle of the scene is not above them.
+double spanned(const Sums& sums, const Box& lowest, int axis) {
     const Vec3 centre = sums.centroid / sums.area;
+    const Vec3 extent = glm::max(sums.box.extent(), Vec3(1e-9));
     double share = 1;
     for (const int across : {(axis + 1) % 3, (axis + 2) % 3}) {
-        if (!(contact.low[across] <= centre[across] && centre[across] <= contact.high[across]))
+        if (!(lowest.low[across] <= centre[across] && centre[across] <= lowest.high[across]))
             return 0;
-        share = std::min(share, contact.extent()[across] / extent[across]);
+        share = std::min(share, lowest.extent()[across] / extent[across]);
     }
     return share;
+}
+
+/// Returns how well a scene stands on the lowest faces along an axis [-]. Corners of faces that do
+/// not lie there as a whole count less: a sheet seldom stands on its edge.
+double standing(const Mesh& mesh, const Sums& sums, int axis) {
+    constexpr double thin = 0.003, of_corners = 0.7;
+    const double end = sums.box.low[axis] + thin * sums.box.extent()[axis];
+    Box faces, corners;
+    for (const Patch& patch : mesh.patches()) {
+        if (mesh.material(patch).is_far)
+            continue;
+        const Box box = box_of(patch.shape.corner);
+        if (box.high[axis] <= end)
+            faces.include(box);
+        for (const Vec3& corner : patch.shape.corner)
+            if (corner[axis] <= end)
+                corners.include(corner);
+    }
+    return std::max(spanned(sums, faces, axis), of_corners * spanned(sums, corners, axis));
 }
 
 void add_points(Sums& sums, const Mesh& mesh) {
@@ -204,7 +216,7 @@ UpGuess guess_up_axis(const Mesh& mesh, std::optional<int> usual) {
     const bool by_custom =
         usual == (is_z ? 2 : 1) && std::abs(strongest->for_z) < std::abs(prior_of(usual));
     return {is_z ? 2 : 1,
-            by_custom ? "files of this kind mostly have it so"
+            by_custom ? "the kind of file or its camera has it so"
                       : std::string(strongest->reason) + " it",
             sum};
 }

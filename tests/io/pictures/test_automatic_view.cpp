@@ -6,6 +6,7 @@
 #include "support/scenes.h"
 #include "support/solve.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace hemilux;
@@ -96,6 +97,17 @@ TEST_CASE("A thing in the sun is seen from a corner above it, on the side of the
             CHECK(to_eye.x * x + to_eye.z * z > 0.3);
             CHECK(std::min(std::abs(to_eye.x), std::abs(to_eye.z)) > 0.2);
         }
+}
+
+TEST_CASE("A cup under the sky is seen from outside, although the sky lights it within") {
+    Scene cup = box_room({0, 0, 0}, {1, 1.2, 1}, 4, {{"clay", Vec3(0.6), Vec3(0)}}, {});
+    std::erase_if(cup.facets, [&](const Facet& facet) {
+        return std::ranges::all_of(facet.vertex, [&](auto v) { return cup.vertices[v].y == 1.2; });
+    });
+    add_sky(cup, "sky", bounds_of(cup), Vec3(1));
+    const Camera camera = Lit(std::move(cup), true).view().camera;
+    CHECK(glm::distance(camera.eye, Vec3(0.5, 0.6, 0.5)) > 1.5);
+    CHECK(forward(camera).y < -0.2);
 }
 
 TEST_CASE("A scene that is turned together with its axis upwards is seen by the turned camera") {

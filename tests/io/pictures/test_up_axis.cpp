@@ -88,6 +88,19 @@ TEST_CASE("The sun and names of floors say what is upwards of a cube") {
     }
 }
 
+TEST_CASE("A name counts for a floor by a word in it, not by letters within a word") {
+    for (const char* const name : {"Background", "waterproof"}) {
+        Scene cube;
+        cube.materials = {{"a", Vec3(0.5), Vec3(0)}, {name, Vec3(0.5), Vec3(0)}};
+        cube.groups = {"cube"};
+        add_cube(cube, Vec3(0.0), 1);
+        cube.facets.back().material = 1; // looks along z
+        CHECK(guess_up_axis(Mesh(cube)).for_z == 0);
+        cube.materials[1].name = "the ground";
+        CHECK(guess_up_axis(Mesh(cube)).for_z > 1);
+    }
+}
+
 TEST_CASE("What is usual in files of a kind decides where little speaks against it") {
     Scene cube;
     cube.materials = {{"a", Vec3(0.5), Vec3(0)}};

@@ -1,8 +1,8 @@
-#include "io/rendering/picture_check.h"
+#include "io/picture_check/picture_check.h"
 
+#include "io/picture_check/place_of_light.h"
 #include "io/pictures/automatic_camera.h"
 #include "io/pictures/lit_patches.h"
-#include "io/rendering/place_of_light.h"
 #include "io/rendering/render.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/scene/mesh.h"

@@ -1,4 +1,4 @@
-#include "io/rendering/place_of_light.h"
+#include "io/picture_check/place_of_light.h"
 
 #include "geometry/elementary.h"
 #include "geometry/frame.h"
@@ -117,11 +117,12 @@ PlaceOfLight place_of_light(const Mesh& mesh, const Tracer& tracer,
 
 std::string text_of(const PlaceOfLight& place, const Mesh& mesh) {
     constexpr std::size_t max_names = 3;
+    const std::size_t count = place.groups.size(), named = std::min(count, max_names);
     std::string names;
-    for (std::size_t k = 0; k < std::min(place.groups.size(), max_names); ++k)
-        names += (k > 0 ? ", '" : "'") + place.groups[k] + "'";
-    if (place.groups.size() > max_names)
-        names += " and " + std::to_string(place.groups.size() - max_names) + " more";
+    for (std::size_t k = 0; k < named; ++k)
+        names += (k == 0 ? "'" : k + 1 < count ? ", '" : " and '") + place.groups[k] + "'";
+    if (count > named)
+        names += " and " + std::to_string(count - named) + " more";
     Box all;
     for (const Patch& patch : mesh.patches())
         if (!mesh.material(patch).is_far)
@@ -129,8 +130,8 @@ std::string text_of(const PlaceOfLight& place, const Mesh& mesh) {
     const double percent = std::floor(100 * std::min(place.of_light, 1.0) + 1e-9);
     return number(percent, "%.0f %% of the light ") +
            (place.enclosed ? "stays inside " : "falls on ") + names +
-           number(longest(place.box.extent()), ", %.3g m wide in a scene of ") +
-           number(longest(all.extent()) / mesh.frame().scale, "%.3g m");
+           number(longest(place.box.extent()), ", %.3g wide in a scene of ") +
+           number(longest(all.extent()) / mesh.frame().scale, "%.3g");
 }
 
 } // namespace hemilux

@@ -1,6 +1,6 @@
-#include "io/rendering/picture_check.h"
+#include "io/picture_check/picture_check.h"
 
-#include "io/rendering/place_of_light.h"
+#include "io/picture_check/place_of_light.h"
 #include "io/rendering/render.h"
 #include "support/catch.h"
 #include "support/lit_scenes.h"
@@ -65,7 +65,7 @@ TEST_CASE("An exposure given that shows nothing is named beside the automatic on
 TEST_CASE(
     "Light that stays in a case is reported by the name of the case, from outside and inside") {
     const Checked scene(lamp_in_case());
-    const char* const stays = "of the light stays inside 'case', 0.5 m wide in a scene of 8 m";
+    const char* const stays = "of the light stays inside 'case', 0.5 wide in a scene of 8";
     CHECK_THAT(scene.warning({.eye = {1, 2, 1}, .target = {5, 0, 5}}),
                Catch::Contains(std::string("the picture is black: ")) && Catch::Contains(stays) &&
                    Catch::Contains("the camera sees none of it") &&
