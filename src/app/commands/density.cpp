@@ -137,12 +137,15 @@ void write_picture(const Preprocessed& made, const PatchDensities& densities,
         light.emplace_back(1 + mean);
     const unsigned threads = made.settings.options.threads;
     const Camera camera = camera_of(view, {made.mesh, made.tracer, light, threads});
-    write_png(
-        path,
-        density_picture(made.mesh, made.tracer, densities.mean,
-                        "mean density of patches, " + made.hemispheres.unit(), camera,
-                        picture_options(view.size, threads, made.monitor.interrupted.own().wished)),
-        1);
+    write_png(path,
+              render_in_time(
+                  picture_options(view.size, threads, made.monitor.interrupted.own().wished),
+                  [&](const RenderOptions& options) {
+                      return density_picture(made.mesh, made.tracer, densities.mean,
+                                             "mean density of patches, " + made.hemispheres.unit(),
+                                             camera, options);
+                  }),
+              1);
 }
 
 bool is_svg(const std::string& path) { return extension_of(path) == ".svg"; }

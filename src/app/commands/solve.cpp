@@ -383,7 +383,8 @@ GivenLight give_light(const Problem& problem, Run& done, const Solution& solutio
             preview.begin_gathering(lit, solution, *done.camera);
         given.gathered =
             gather_light(settings, lit, solution, points, done.camera.value_or(Camera()), layouts,
-                         problem.monitor, statistics, {}, &preview);
+                         problem.monitor, statistics, {},
+                         [&](const Image& rows, int count) { preview.show_rows(rows, count); });
     }
     given.lamps = find_lamp_light(settings,
                                   {lit, *done.solver, solution, given.gathered,

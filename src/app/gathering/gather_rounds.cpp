@@ -33,8 +33,8 @@ unsigned rays_for(double error) {
 double rays_needed(const GatherErrors& errors, double asked, double most) {
     const double read = errors.read.error, left = asked * asked - read * read;
     const double excess = left > 0 ? errors.noise * errors.noise / left : 1;
-    return std::min(errors.rays * elementary::exp2(std::ceil(std::log2(std::max(excess, 2.0)))),
-                    most);
+    return std::min(
+        errors.rays * elementary::exp2(std::ceil(elementary::log2(std::max(excess, 2.0)))), most);
 }
 
 /// Makes the first the mean of both.

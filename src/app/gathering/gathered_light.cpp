@@ -3,8 +3,7 @@
 #include "app/division/whole_error.h"
 #include "app/gathering/gather_rounds.h"
 #include "app/gathering/learn_options.h"
-#include "app/outputs/preview.h"
-#include "app/running/signals.h"
+#include "app/rendering/asked_to_end.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/stage.h"
@@ -50,10 +49,10 @@ class Gathering {
   public:
     Gathering(const SolveSettings& settings, const LitScene& scene, const Solution& solution,
               Monitor& monitor, Statistics& statistics, const std::optional<WholeLight>& whole,
-              Preview* preview)
+              ShowRows show_rows)
         : settings_(settings), scene_(scene), solution_(solution), statistics_(statistics),
           workers_(settings.options.threads), interrupted_(monitor.interrupted.own().wished),
-          limits_(settings.stop), preview_(preview),
+          limits_(settings.stop), show_rows_(std::move(show_rows)),
           cache_(std::make_unique<LightCache>(scene.mesh, scene.tracer, solution)),
           rounds_(settings, solution, *cache_, monitor, statistics, whole) {}
 
@@ -88,7 +87,7 @@ class Gathering {
     const std::atomic<bool>& interrupted_;
     /// The light at points may take as long as the solution may, and the rays that it leaves.
     const StopRule& limits_;
-    Preview* preview_;             ///< null: none is wanted
+    ShowRows show_rows_;           ///< may be empty
     std::atomic<double> share_{0}; ///< of the work at points that is done
     Stopwatch started_;
     std::unique_ptr<LightCache> cache_;
@@ -248,8 +247,8 @@ void Gathering::find_picture(const Camera& camera) {
         options.gather_round = round.number;
         options.rows_done = [&](const Image& rows, int count) {
             round.tell(double(count) / options.height);
-            if (preview_ && round.number == 0)
-                preview_->show_rows(rows, count);
+            if (show_rows_ && round.number == 0)
+                show_rows_(rows, count);
         };
         RowsOfPicture found = render_gathered(scene_, camera, options);
         if (found.rows == options.height)
@@ -408,10 +407,10 @@ GatheredLight gather_light(const SolveSettings& settings, const LitScene& scene,
                            const Solution& solution, std::span<const NamedPoint> points,
                            const Camera& camera, std::span<const NamedLayout> lightmaps,
                            Monitor& monitor, Statistics& statistics,
-                           const std::optional<WholeLight>& whole, Preview* preview) {
+                           const std::optional<WholeLight>& whole, const ShowRows& show_rows) {
     if (!gathers(settings))
         return {};
-    Gathering gathering(settings, scene, solution, monitor, statistics, whole, preview);
+    Gathering gathering(settings, scene, solution, monitor, statistics, whole, show_rows);
     if (!points.empty())
         gathering.find_points(points);
     for (const NamedLayout& lightmap : lightmaps)

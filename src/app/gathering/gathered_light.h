@@ -14,6 +14,7 @@
 #include "radiosity/light/final_gather/light_at_points.h"
 #include "radiosity/paper/solving/solver.h"
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -22,8 +23,6 @@
 #include <vector>
 
 namespace hemilux {
-
-class Preview;
 
 struct GatheredLight {
     std::unique_ptr<LightCache> cache; ///< empty: nothing is gathered
@@ -49,15 +48,18 @@ struct NamedLayout {
 /// Returns whether lightmaps show gathered light.
 [[nodiscard]] bool gathers_lightmap(const SolveSettings& settings);
 
+/// Takes a picture of which so many rows, from the top, are gathered.
+using ShowRows = std::function<void(const Image& picture, int rows)>;
+
 /// Learns the light, and gathers that of points. `camera` is that of pictures; `lightmaps` say
 /// where surfaces lie in each. Everything that is referred to must outlive the result. Enters the
 /// error into the statistics where only gathered light is given out. With `whole` the light is a
-/// part of that, and is as exact as that needs it. `preview` is shown the picture as it grows. A
-/// signal leaves what is gathered by then, and the light of the patches elsewhere.
+/// part of that, and is as exact as that needs it. `show_rows` is called as the rows of the picture
+/// are gathered. A signal leaves what is gathered by then, and the light of the patches elsewhere.
 [[nodiscard]] GatheredLight
 gather_light(const SolveSettings& settings, const LitScene& scene, const Solution& solution,
              std::span<const NamedPoint> points, const Camera& camera,
              std::span<const NamedLayout> lightmaps, Monitor& monitor, Statistics& statistics,
-             const std::optional<WholeLight>& whole = {}, Preview* preview = nullptr);
+             const std::optional<WholeLight>& whole = {}, const ShowRows& show_rows = {});
 
 } // namespace hemilux

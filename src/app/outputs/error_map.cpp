@@ -43,9 +43,13 @@ void write_error_map(const std::string& path, const ViewSettings& view, const Re
     for (double& error : errors)
         error *= 100;
     write_png(path,
-              density_picture(
-                  mesh, tracer, errors, "error of patches, % of the mean light (root mean square)",
-                  camera, picture_options(view.size, options.threads, interrupted.own().wished)),
+              render_in_time(picture_options(view.size, options.threads, interrupted.own().wished),
+                             [&](const RenderOptions& in_time) {
+                                 return density_picture(
+                                     mesh, tracer, errors,
+                                     "error of patches, % of the mean light (root mean square)",
+                                     camera, in_time);
+                             }),
               1);
 }
 

@@ -2,8 +2,8 @@
 
 #include "app/gathering/lit_file_output.h"
 #include "app/outputs/layered_picture.h"
+#include "app/rendering/asked_to_end.h"
 #include "app/rendering/view.h"
-#include "app/running/signals.h"
 #include "app/terminal/log.h"
 #include "io/lightmaps/lightmap.h"
 #include "io/meshes/baked_light.h"

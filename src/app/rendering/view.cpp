@@ -1,6 +1,6 @@
 #include "app/rendering/view.h"
 
-#include "app/running/signals.h"
+#include "app/rendering/asked_to_end.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/text.h"
 #include "geometry/elementary.h"
@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace hemilux {
 
@@ -89,16 +90,23 @@ RenderOptions picture_options(PixelSize size, unsigned threads,
             .give_up = [&interrupted] { return is_asked_to_end(interrupted); }};
 }
 
-Image render_view(const LitScene& scene, const Camera& camera, RenderOptions options) {
-    options.textures = true;
+Image render_in_time(RenderOptions options,
+                     const std::function<Image(const RenderOptions&)>& render) {
     try {
-        return render(scene.mesh, scene.tracer, scene.radiosity, camera, options);
+        return render(options);
     } catch (const Interrupted&) {
         options.give_up = {};
         options.samples = 1;
         options.square = square_for_speed(options.width, options.height);
-        return render(scene.mesh, scene.tracer, scene.radiosity, camera, options);
+        return render(options);
     }
+}
+
+Image render_view(const LitScene& scene, const Camera& camera, RenderOptions options) {
+    options.textures = true;
+    return render_in_time(std::move(options), [&](const RenderOptions& in_time) {
+        return render(scene.mesh, scene.tracer, scene.radiosity, camera, in_time);
+    });
 }
 
 std::string squares_text(PixelSize size) {

@@ -7,6 +7,7 @@
 #include "io/results/smooth.h"
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -40,8 +41,12 @@ struct LitScene {
 [[nodiscard]] RenderOptions picture_options(PixelSize size, unsigned threads,
                                             const std::atomic<bool>& interrupted);
 
-/// Renders the light of the patches as the camera sees it, with the textures of surfaces. Where
-/// `give_up` ends it, it is rendered as fast as can be: large pictures by squares.
+/// Returns render(options). Where `give_up` ends it, it is called once more for a picture that is
+/// there as fast as can be: large ones in squares.
+[[nodiscard]] Image render_in_time(RenderOptions options,
+                                   const std::function<Image(const RenderOptions&)>& render);
+
+/// Renders the light of the patches so, as the camera sees it, with the textures of surfaces.
 [[nodiscard]] Image render_view(const LitScene& scene, const Camera& camera, RenderOptions options);
 
 /// Returns what a log adds on pictures of this size that are rendered so fast: empty for small

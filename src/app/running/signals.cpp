@@ -8,7 +8,6 @@
 #include <array>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <fcntl.h>
 #include <iostream>
 #include <poll.h>
@@ -81,14 +80,6 @@ void InterruptGuard::watch(std::atomic<bool>& flag) {
     end_waits_on(&flag);
     compress_little_on(&flag);
     interrupted = &flag;
-}
-
-bool is_asked_to_end(const std::atomic<bool>& flag) {
-    static const char* const number = std::getenv("HEMILUX_SIGNAL_AT");
-    static std::atomic<long> left{number ? std::atol(number) : 0};
-    if (left > 0 && --left == 0)
-        raise(SIGINT);
-    return flag;
 }
 
 int exit_code_of_signal() { return exit_code; }

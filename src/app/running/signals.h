@@ -23,11 +23,6 @@ class InterruptGuard {
     void watch(std::atomic<bool>& flag);
 };
 
-/// Returns the flag. What works for long asks by this, often enough that it can stop within a
-/// fraction of a second. With HEMILUX_SIGNAL_AT=N in the environment, this process is sent a SIGINT
-/// by the Nth question: so a test interrupts the same work each time.
-[[nodiscard]] bool is_asked_to_end(const std::atomic<bool>& flag);
-
 /// Returns how the program ends after the first signal: 128 and its number, such as 130 or 143.
 [[nodiscard]] int exit_code_of_signal();
 

@@ -1,12 +1,15 @@
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
+#include "io/pictures/exr_reader.h"
 #include "io/pictures/image.h"
 #include "io/png_reader.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 using namespace hemilux;
 using namespace hemilux::test;
@@ -120,6 +123,42 @@ TEST_CASE("a PNG gives back every pixel through the curve") {
             wrong += png.bytes[3 * i + static_cast<std::size_t>(c)] !=
                      std::lround(255 * srgb_from_linear(0.5f * image.pixels[i][c]));
     CHECK(wrong == 0);
+}
+
+TEST_CASE("files that are compressed little, or in a hurry that comes at any time, are the same") {
+    const TemporaryFolder folder;
+    Image image = gradient(701, 503); // more than is compressed at a time
+    for (int y = 200; y < 400; ++y)
+        for (int x = 0; x < 701; ++x)
+            image.at(x, y) = image.at(x / 6 * 6, y / 6 * 6);
+    const auto png = [&](const char* name, Compression compression = Compression::usual) {
+        write_png(folder.path(name), image, 1, {}, compression);
+        return read_png(folder.path(name)).bytes;
+    };
+    const auto exr = [&](const char* name) {
+        std::vector<ExrChannel> channels;
+        add_exr_channels(channels, "", image);
+        write_exr(folder.path(name), image.width, image.height, channels, {});
+        return image_of(read_exr(folder.path(name)), "").pixels;
+    };
+    const auto usual = png("a.png");
+    const auto light = exr("a.exr");
+    CHECK(png("b.png", Compression::little) == usual);
+    CHECK(content_of(folder.path("b.png")) != content_of(folder.path("a.png")));
+    std::atomic<bool> hurry{false};
+    compress_little_on(&hurry);
+    for (int turn = 0; turn < 2; ++turn) {
+        std::thread signal([&] { hurry = true; });
+        CHECK(png("c.png") == usual);
+        CHECK(exr("c.exr") == light);
+        signal.join();
+        hurry = false;
+    }
+    hurry = true;
+    CHECK(png("d.png") == usual);
+    CHECK(content_of(folder.path("d.png")) == content_of(folder.path("b.png")));
+    CHECK(exr("d.exr") == light);
+    compress_little_on(nullptr);
 }
 
 TEST_CASE("an HDR file keeps linear light over many decades") {
