@@ -38,8 +38,7 @@ std::string uncertainty_text(const Statistics& s) {
 std::string local_text(double error) {
     constexpr double hardly_known = 1;
     return error > hardly_known
-               ? "; more than 5 of 100 places are so dark that they are off by more than their own "
-                 "light"
+               ? "; more than 5 of 100 places are so dark that their own light is hardly known"
                : ", and within " + percent(error) + " of the light there in 95 of 100 places";
 }
 
