@@ -69,7 +69,8 @@ bool write_lit(const std::string& path, const ReadResult& read, const std::strin
                Binding binding, bool with_coordinates) {
     try {
         gltf::LitSource source(path, guard, Outside::refused, read.origins);
-        LightmapOfFile lightmap{.pictures = {{.png = "no picture"}}, .binding = binding};
+        LightmapOfFile lightmap{.pictures = {{.png = "no picture", .shown = "none"}},
+                                .binding = binding};
         LightmapPicture& picture = lightmap.pictures.front();
         for (std::size_t o = 0; o < source.origins().size(); ++o)
             picture.origins.push_back(o);
@@ -95,7 +96,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const fuzz::InputFile result("lit.glb");
     const std::string& path = file.with(data, size);
     const std::string& lit = result.with(nullptr, 0);
-    constexpr std::array bindings{Binding::lightmap, Binding::unlit, Binding::texture};
+    constexpr std::array bindings{Binding::lit, Binding::lightmap, Binding::unlit,
+                                  Binding::texture};
     try {
         const ReadResult read = [&] {
             try {
@@ -104,7 +106,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 throw TooLarge();
             }
         }();
-        if (write_lit(path, read, lit, bindings[size % 3], size / 3 % 2 == 0))
+        if (write_lit(path, read, lit, bindings[size % 4], size / 4 % 2 == 0))
             check_same(read.scene, read_gltf(lit, guard, false, Outside::refused).scene);
     } catch (const TooLarge&) {
     }
