@@ -110,6 +110,7 @@ GatherErrors GatherRounds::gather(const std::string& what, const ReadError& read
         statistics_.rays_learn += own->rays;
         errors.noise = own->error;
         errors.noise_uncertainty = own->uncertainty;
+        errors.noise_bound = own->bound;
         errors.noise_local = own->local;
         level = own->level;
         asked = error_at(level, &TargetLevel::shown);

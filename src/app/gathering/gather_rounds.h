@@ -40,15 +40,14 @@ struct GatherErrors {
     ReadError read;                                          ///< of the light that gathers read
     double noise = std::numeric_limits<double>::quiet_NaN(); ///< of their own, relative [-]
     double noise_uncertainty = 0;                            ///< one sigma
+    double noise_bound = 0;                                  ///< what it surely is at most
     double noise_local = 0; ///< what 95 of 100 places are within, relative to their light [-]
     unsigned rays = 0;      ///< at a point, of the last gather
 
     /// Returns whether a signal came before the light was judged.
     [[nodiscard]] bool is_unknown() const { return std::isnan(noise); }
     [[nodiscard]] double whole() const { return elementary::hypot(read.error, noise); }
-    [[nodiscard]] double bound() const {
-        return elementary::hypot(read.bound, noise + noise_uncertainty);
-    }
+    [[nodiscard]] double bound() const { return elementary::hypot(read.bound, noise_bound); }
     [[nodiscard]] double local() const { return elementary::hypot(read.local, noise_local); }
     /// Returns whether the error may be larger or smaller than this one.
     [[nodiscard]] bool is_in_doubt(double limit) const {

@@ -222,6 +222,7 @@ void Gathering::find_points(std::span<const NamedPoint> points) {
     if (gathered == points.size())
         errors.noise = light_.points.noise;
     errors.noise_uncertainty = light_.points.noise_uncertainty;
+    errors.noise_bound = errors.noise + errors.noise_uncertainty;
     errors.noise_local = light_.points.noise_local;
     rounds_.end_target({errors.read.level, 0});
     statistics_.rays_gather += light_.points.rays;

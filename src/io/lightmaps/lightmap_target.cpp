@@ -128,6 +128,8 @@ std::vector<TargetPart> lightmap_parts(const Mesh& mesh, const TexelMap& texels,
 PictureJudge judge_of_lightmaps(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
                                 const TexelMap& texels, const std::vector<bool>& covered, Bake bake,
                                 std::uint64_t seed) {
+    // Where few texels hold the error, its spread is hardly known itself.
+    constexpr double sigmas_of_bound = 2;
     return {mesh,
             tracer,
             light,
@@ -136,7 +138,8 @@ PictureJudge judge_of_lightmaps(const Mesh& mesh, const Tracer& tracer, const Su
                 return judged_texels(mesh, texels, covered, bake, count, lightmap, of);
             },
             seed,
-            bake == Bake::indirect};
+            bake == Bake::indirect,
+            sigmas_of_bound};
 }
 
 } // namespace hemilux

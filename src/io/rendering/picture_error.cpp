@@ -178,6 +178,7 @@ std::optional<PictureError> PictureJudge::error_of(const Image& picture, std::si
     const double error = std::sqrt(square);
     return PictureError{.error = error,
                         .uncertainty = std::sqrt(square + sigma) - error,
+                        .bound = std::sqrt(square + sigmas_of_bound_ * sigma),
                         .local = parts.within(),
                         .level = std::sqrt(size / (3 * weights)),
                         .rays = rays};

@@ -24,6 +24,7 @@ class Workers;
 struct PictureError {
     double error = 0;
     double uncertainty = 0; ///< one sigma of `error`
+    double bound = 0;       ///< what it surely is at most
     /// What 95 of 100 parts of the picture are within, relative to the light there [-].
     double local = 0;
     double level = 0; ///< RMS of that light over pixels and channels [W/m2]
@@ -54,9 +55,9 @@ class PictureJudge {
     /// With `only_reflected`, pictures show no light that arrives straight from where it is
     /// emitted. All that is referred to must outlive this object.
     PictureJudge(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light, Choice choice,
-                 std::uint64_t seed, bool only_reflected = false)
+                 std::uint64_t seed, bool only_reflected = false, double sigmas_of_bound = 1)
         : mesh_(mesh), tracer_(tracer), light_(light), choice_(std::move(choice)), seed_(seed),
-          only_reflected_(only_reflected) {}
+          only_reflected_(only_reflected), sigmas_of_bound_(sigmas_of_bound) {}
 
     /// Returns the error of a picture by about so many pixels, or by all that are known already.
     [[nodiscard]] PictureError error_of(const Image& picture, std::size_t pixels,
@@ -87,6 +88,7 @@ class PictureJudge {
     Choice choice_;
     std::uint64_t seed_;
     bool only_reflected_;
+    double sigmas_of_bound_;
     std::size_t asked_ = 0; ///< so many pixels were
     std::vector<Estimates> known_;
 };
