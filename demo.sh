@@ -30,7 +30,7 @@ if [ -n "$hemilux" ]; then
 else
     scripts/install_packages.sh
     cmake --preset release >/dev/null
-    compile "what a picture needs" 150 first/hemilux hemilux_first
+    compile "what a picture needs" 160 first/hemilux hemilux_first
     hemilux=build/release/hemilux
     first=build/release/first/hemilux
     # Until the rest is there.
