@@ -14,6 +14,7 @@
 #include "app/loading/load.h"
 #include "app/loading/reference.h"
 #include "app/memory/memory.h"
+#include "app/outputs/lit_preview.h"
 #include "app/outputs/preview.h"
 #include "app/outputs/step_pictures.h"
 #include "app/outputs/useful_picture.h"
@@ -381,6 +382,8 @@ GivenLight give_light(const Problem& problem, Run& done, const Solution& solutio
         layouts = lightmap_layouts(problem);
         if (done.camera)
             preview.begin_gathering(lit, solution, *done.camera);
+        preview_lit_file(settings, lit, solution, problem.loaded.file_lightmap, layouts,
+                         problem.monitor.interrupted.own().wished);
         given.gathered =
             gather_light(settings, lit, solution, points, done.camera.value_or(Camera()), layouts,
                          problem.monitor, statistics, {},

@@ -25,9 +25,13 @@ constexpr double patience = 40;
 
 } // namespace
 
+bool shows_previews(const SolveSettings& settings) {
+    return settings.preview || (settings.verbosity != Verbosity::quiet && stderr_is_terminal());
+}
+
 Preview::Preview(const SolveSettings& settings, const std::atomic<bool>& interrupted)
     : settings_(settings), interrupted_(interrupted), view_(settings.view) {
-    if (settings.preview || (settings.verbosity != Verbosity::quiet && stderr_is_terminal()))
+    if (shows_previews(settings))
         std::ranges::copy_if(settings.outputs, std::back_inserter(pictures_),
                              [](const Output& output) { return output.kind == OutputKind::png; });
 }

@@ -11,6 +11,10 @@ namespace hemilux {
 
 struct Solution;
 
+/// Returns whether outputs are written before the end: the settings ask for it, or a terminal shows
+/// the run.
+[[nodiscard]] bool shows_previews(const SolveSettings& settings);
+
 /// Writes the .png files of a run before its end: by the light of the patches, in squares, then
 /// with the rows that are gathered. The first one is written after a second of processor time, or
 /// when the gathering of a picture that is not small begins. Each takes its share of the time: the

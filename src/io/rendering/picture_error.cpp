@@ -88,19 +88,21 @@ PictureJudge judge_of_pictures(const Mesh& mesh, const Tracer& tracer, const Sur
                                const CameraRays& camera, int width, int height,
                                std::uint64_t seed) {
     return {mesh, tracer, light,
-            [&mesh, &tracer, &camera, width, height](std::size_t count, std::uint64_t of) {
+            [&mesh, &tracer, &camera, width, height](std::size_t count, const Image&,
+                                                     std::uint64_t of) {
                 return pixels_of(mesh, tracer, camera, width, height, count, of);
             },
             seed};
 }
 
 /// Returns the number of rays that it took; nothing where it was ended.
-std::optional<std::uint64_t> PictureJudge::estimate_more(std::size_t pixels, const Workers& workers,
+std::optional<std::uint64_t> PictureJudge::estimate_more(const Image& picture, std::size_t pixels,
+                                                         const Workers& workers,
                                                          const GoOn& go_on) {
     constexpr std::size_t places = 2 * places_in_pixel;
     constexpr std::size_t points_at_once = 2048; // some ten thousand rays
     const std::uint64_t seed = hash_words({seed_, asked_});
-    const std::vector<JudgedPixel> chosen = choice_(pixels - asked_, seed);
+    const std::vector<JudgedPixel> chosen = choice_(pixels - asked_, picture, seed);
     const auto place_of = [](const JudgedPixel& pixel, std::size_t j) -> const Place& {
         return pixel.places[pixel.places.size() == 1 ? 0 : j];
     };
@@ -128,7 +130,8 @@ std::optional<std::uint64_t> PictureJudge::estimate_more(std::size_t pixels, con
     asked_ = pixels;
     std::size_t next = 0;
     for (const JudgedPixel& pixel : chosen) {
-        Estimates& found = known_.emplace_back(Estimates{.pixel = pixel.pixel});
+        Estimates& found =
+            known_.emplace_back(Estimates{.pixel = pixel.pixel, .weight = pixel.weight});
         for (std::size_t j = 0; j < places; ++j, ++next) {
             const Colours& colours = place_of(pixel, j).colours;
             found.reflected.at(j / places_in_pixel) +=
@@ -143,28 +146,31 @@ std::optional<PictureError> PictureJudge::error_of(const Image& picture, std::si
                                                    const Workers& workers, const GoOn& go_on) {
     std::uint64_t rays = 0;
     if (pixels > asked_) {
-        const std::optional<std::uint64_t> taken = estimate_more(pixels, workers, go_on);
+        const std::optional<std::uint64_t> taken = estimate_more(picture, pixels, workers, go_on);
         if (!taken)
             return std::nullopt;
         rays = *taken;
     }
-    double products = 0, squares = 0, size = 0;
+    double products = 0, squares = 0, size = 0, weights = 0;
     LocalErrors parts;
     const std::size_t of_part = (known_.size() + parts_of_picture - 1) / parts_of_picture;
-    double part_products = 0, part_size = 0;
+    double part_products = 0, part_size = 0, part_weight = 0;
     for (std::size_t k = 0; k < known_.size(); ++k) {
-        const auto& [pixel, reflected, emitted] = known_[k];
+        const auto& [pixel, weight, reflected, emitted] = known_[k];
         const Vec3 shown(picture.pixels[pixel]);
-        const double product = glm::dot(reflected[0] + emitted[0] - shown,
-                                        reflected[1] + emitted[1] - shown),
-                     light = glm::dot(reflected[0], reflected[1]);
+        const double product = weight * glm::dot(reflected[0] + emitted[0] - shown,
+                                                 reflected[1] + emitted[1] - shown),
+                     light = weight * glm::dot(reflected[0], reflected[1]);
         products += product;
         squares += product * product;
         size += light;
+        weights += weight;
         part_products += product;
         part_size += light;
+        part_weight += weight;
         if ((k + 1) % of_part == 0 || k + 1 == known_.size())
-            parts.add(std::exchange(part_products, 0.0), std::exchange(part_size, 0.0));
+            parts.add(std::exchange(part_products, 0.0), std::exchange(part_size, 0.0),
+                      std::exchange(part_weight, 0.0));
     }
     if (!(size > 0))
         return PictureError{.rays = rays};
@@ -173,7 +179,7 @@ std::optional<PictureError> PictureJudge::error_of(const Image& picture, std::si
     return PictureError{.error = error,
                         .uncertainty = std::sqrt(square + sigma) - error,
                         .local = parts.within(),
-                        .level = std::sqrt(size / (3 * double(known_.size()))),
+                        .level = std::sqrt(size / (3 * weights)),
                         .rays = rays};
 }
 

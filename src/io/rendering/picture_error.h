@@ -39,6 +39,7 @@ struct JudgedPixel {
     std::size_t pixel; ///< its number in the picture
     /// Those of both estimates, half for each; one place stands for all.
     std::vector<Place> places;
+    double weight = 1; ///< it stands for so many pixels that are chosen with the mean probability
 };
 
 /// Gathers the light at random pixels, twice independently, with many rays. The mean product of
@@ -46,8 +47,9 @@ struct JudgedPixel {
 /// is gathered once, for all pictures that are judged.
 class PictureJudge {
   public:
-    /// Chooses about so many pixels, spread evenly over the picture.
-    using Choice = std::function<std::vector<JudgedPixel>(std::size_t count, std::uint64_t seed)>;
+    /// Chooses about so many pixels, spread over the picture that is judged first.
+    using Choice = std::function<std::vector<JudgedPixel>(std::size_t count, const Image& picture,
+                                                          std::uint64_t seed)>;
 
     /// With `only_reflected`, pictures show no light that arrives straight from where it is
     /// emitted. All that is referred to must outlive this object.
@@ -71,10 +73,13 @@ class PictureJudge {
     /// What a pixel shows, by both estimates [W/m2].
     struct Estimates {
         std::size_t pixel;
+        double weight;
         std::array<Vec3, 2> reflected{}, emitted{};
     };
-    [[nodiscard]] std::optional<std::uint64_t>
-    estimate_more(std::size_t pixels, const Workers& workers, const GoOn& go_on);
+    [[nodiscard]] std::optional<std::uint64_t> estimate_more(const Image& picture,
+                                                             std::size_t pixels,
+                                                             const Workers& workers,
+                                                             const GoOn& go_on);
 
     const Mesh& mesh_;
     const Tracer& tracer_;

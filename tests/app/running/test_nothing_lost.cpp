@@ -2,6 +2,7 @@
 // and the light of the patches elsewhere. The moments are chosen by the work that is done.
 #include "app/program.h"
 #include "app/running.h"
+#include "app/running/small_room.h"
 #include "app/watched_terminal.h"
 #include "io/pictures/exr_reader.h"
 #include "support/catch.h"
@@ -193,4 +194,27 @@ TEST_CASE("a picture on the way does not change what a run writes in the end") {
     const std::string with = place.read("a.png");
     CHECK(versions >= 2);
     CHECK(with.substr(with.find("IDAT")) == without.substr(without.find("IDAT")));
+}
+
+TEST_CASE("a baked file on the way does not change what a run writes in the end") {
+    test::WatchedTerminal terminal;
+    setenv("TERM", "xterm", 1);
+    const Workplace place;
+    place.write("room.gltf", test::SmallRoom{}.text());
+    const std::string common =
+        "bake room.gltf -o lit.glb --max-rays 200000 --gather 16 --lightmap 400";
+    REQUIRE(place.hemilux(common + " -q").code == 0);
+    const std::string without = place.read("lit.glb");
+    std::size_t versions = 0;
+    test::FileVersion last = test::version_of(place, "lit.glb");
+    Running run(place, common, terminal.name());
+    test::wait_until([&] {
+        const test::FileVersion now = test::version_of(place, "lit.glb");
+        versions += now != last;
+        last = now;
+        return run.ended();
+    });
+    CHECK(run.wait() == 0);
+    CHECK(versions >= 2);
+    CHECK(test::glb_from(place.read("lit.glb")).binary == test::glb_from(without).binary);
 }

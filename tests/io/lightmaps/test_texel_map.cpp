@@ -253,6 +253,55 @@ TEST_CASE("texels have the light of lights without extent, unless only what is r
     CHECK(indirect.image.at(9, 9) == glm::vec3(0));
 }
 
+TEST_CASE("the error of a lightmap is known where one texel in four hundred has all of it") {
+    constexpr int size = 128;
+    Scene scene;
+    scene.groups = {"floor"};
+    scene.materials = {{"a", Vec3(.5), Vec3(0)}};
+    add_quad(scene, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, 1, 1, 0);
+    add_point_emitter(scene, {.name = "lamp", .position = {.5, 1.5, -.25}, .intensity = Vec3(10)});
+    const Model model(scene);
+    std::vector<PlacedTriangle> placed = BlockOnFloor::placed(model.mesh, size);
+    for (PlacedTriangle& triangle : placed)
+        for (Vec2& place : triangle.place)
+            place = place * (size - 4.) / double(size) + 2.;
+    const TexelMap texels(model.mesh, std::move(placed), size);
+    const std::vector<Vec3> dark(model.mesh.patches().size(), Vec3(0.0));
+    const SurfaceLight light(model.mesh, PatchLight(dark));
+    const std::vector<bool> covered(texels.count());
+    const Workers workers(2);
+    GatheredLightmap lightmap = gather_lightmap(model.mesh, model.bvh, light, texels, covered,
+                                                {.bake = Bake::irradiance}, workers);
+    double all = 0, off = 0;
+    const auto spoil = [&](std::size_t texel) {
+        off += std::pow(lightmap.image.pixels[texel].x, 2);
+        lightmap.image.pixels[texel] *= 2;
+    };
+    for (const glm::vec3& texel : lightmap.image.pixels)
+        all += texel.x * texel.x;
+    SECTION("somewhere") {
+        for (std::size_t k = 400; k < texels.count(); k += 401)
+            if (texels.is_inside(k))
+                spoil(k);
+    }
+    SECTION("beside the triangles") {
+        for (std::size_t k = 0; k < texels.count(); k += 11)
+            if (texels.shows(k) && !texels.is_inside(k))
+                spoil(k);
+    }
+    double mean = 0;
+    constexpr std::uint64_t seeds = 8;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        const PictureError found = judge_of_lightmaps(model.mesh, model.bvh, light, texels, covered,
+                                                      Bake::irradiance, seed)
+                                       .error_of(lightmap.image, 512, workers);
+        CHECK(std::pow(found.error, 2) == Approx(off / all).epsilon(.4));
+        CHECK(found.error + 3 * found.uncertainty > std::sqrt(off / all));
+        mean += found.error * found.error / seeds;
+    }
+    CHECK(mean == Approx(off / all).epsilon(.15));
+}
+
 TEST_CASE("in a room of one radiosity texels at the edges of walls have all the light") {
     constexpr int size = 64;
     const Model model(box_room({0, 0, 0}, {3, 2, 2}, 1, {{"a", Vec3(0), Vec3(1)}}, {}));
