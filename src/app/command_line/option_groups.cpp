@@ -223,8 +223,7 @@ void add_camera_options(Command command, ViewSettings& view) {
             view.camera_has_up = value.has_up;
             view.uses_camera_of_scene = false;
         });
-    command.add_value("--up", "y|z",
-                      "axis upwards, of --camera too if it names none [guessed; y of glTF]",
+    command.add_value("--up", "y|z", "axis upwards [guessed; y of .gltf and .glb]",
                       [&view](const std::string& axis) {
                           if (axis != "y" && axis != "z")
                               throw UsageError("--up: expected y or z, not '" + axis + "'");
