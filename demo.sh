@@ -30,7 +30,7 @@ if [ -n "$hemilux" ]; then
 else
     scripts/install_packages.sh
     cmake --preset release >/dev/null
-    compile "what a picture needs" 150 first/hemilux hemilux_first
+    compile "what a picture needs" 160 first/hemilux hemilux_first
     hemilux=build/release/hemilux
     first=build/release/first/hemilux
     # Until the rest is there.
@@ -38,8 +38,8 @@ else
 fi
 
 echo
-echo "1. The default: as many patches and rays as an error of 5 % of the light on the surfaces takes"
-$first solve "$scene" -o "$out/picture.png" -o "$out/mesh.ply" --stats "$out/statistics.json"
+echo "1. A model, lit: the picture's light is right to 2 %"
+$first "$scene" -o "$out/picture.png" -o "$out/mesh.ply" --stats "$out/statistics.json"
 echo
 echo "The room, lit: $PWD/$out/picture.png"
 echo

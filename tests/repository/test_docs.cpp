@@ -337,8 +337,8 @@ int checked_rows_of(const char* page) {
 
 TEST_CASE("what documents name is told from what is not there") {
     CHECK(
-        missing_in("see `src/app/main.cpp`, [this](README.md#start) and `hemilux solve`, `src/*.h`",
-                   root)
+        missing_in(
+            "see `src/app/main.cpp`, [this](README.md#limits) and `hemilux solve`, `src/*.h`", root)
             .empty());
     CHECK(missing_in("[far](https://example.org/a), [near](#part)", root).empty());
     CHECK(missing_in("```\n`src/no.cpp`\n```", root).empty());

@@ -68,9 +68,9 @@ void add_light_options(Command command, SolveSettings& settings,
          {Binding::unlit, "unlit"},
          {Binding::occlusion, "occlusion"},
          {Binding::texture, "texture"}},
-        "how materials refer to the light: lit: any viewer shows them as they are lit, textures "
-        "times light, and those of the file are a variant with MOZ_lightmap; lightmap: by "
-        "MOZ_lightmap; unlit: as an unlit base colour, as coarse as its texels; occlusion: as "
+        "how materials have the light: lit: times their textures, as any viewer shows it; the "
+        "file's own are a variant with MOZ_lightmap; lightmap: by MOZ_lightmap; unlit: as an unlit "
+        "base colour, as coarse as its texels; occlusion: as "
         "occlusionTexture, which dims the light from all around in viewers; texture: not at all "
         "[lit; lightmap for --bake indirect, unlit for radiosity, occlusion for ao; texture for "
         ".obj]",

@@ -223,15 +223,12 @@ void add_camera_options(Command command, ViewSettings& view) {
             view.camera_has_up = value.has_up;
             view.uses_camera_of_scene = false;
         });
-    command.add_value(
-        "--up", "y|z",
-        "axis that is upwards, also for a --camera without a direction upwards [guessed; y of "
-        ".gltf and .glb]",
-        [&view](const std::string& axis) {
-            if (axis != "y" && axis != "z")
-                throw UsageError("--up: expected y or z, not '" + axis + "'");
-            view.up = axis == "y" ? 1 : 2;
-        });
+    command.add_value("--up", "y|z", "axis upwards [guessed; y of .gltf and .glb]",
+                      [&view](const std::string& axis) {
+                          if (axis != "y" && axis != "z")
+                              throw UsageError("--up: expected y or z, not '" + axis + "'");
+                          view.up = axis == "y" ? 1 : 2;
+                      });
     add_parsed(
         command, "--size", "WxH", "of pictures, in pixels [800x600]",
         "a width and a height from 1 to 16384, such as 800x600",

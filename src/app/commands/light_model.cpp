@@ -79,6 +79,7 @@ int light_model(SolveSettings settings) {
         settings.from.command.replace(0, solve_command.size(), "hemilux ");
     if (!writes_something(settings))
         add_picture(settings);
+    settings.preview = true;
     std::string light;
     settings.scene.more_light = [&light, &settings, verbosity](const ReadResult& read,
                                                                SceneSettings& scene) {

@@ -79,7 +79,7 @@ bool is_lit(const Mesh& mesh, const Tracer& tracer, Sides sides, const ViewSetti
 }
 
 /// Returns a coordinate to a hundredth of `unit`.
-std::string place_text(double x, double unit) {
+std::string coordinate_text(double x, double unit) {
     constexpr int most = 15;
     constexpr double smallest = 1e-12, largest = 1e12; // beyond, powers of ten are easier to read
     if (unit < smallest || unit > largest)
@@ -98,11 +98,12 @@ std::string place_text(double x, double unit) {
 /// Returns a number above 0 to two digits.
 std::string number_text(double x) {
     const double rounded = std::strtod(formatted("%.2g", x).c_str(), nullptr);
-    return place_text(rounded, rounded);
+    return coordinate_text(rounded, rounded);
 }
 
 std::string text_of(const Vec3& v, double unit) {
-    return place_text(v.x, unit) + "," + place_text(v.y, unit) + "," + place_text(v.z, unit);
+    return coordinate_text(v.x, unit) + "," + coordinate_text(v.y, unit) + "," +
+           coordinate_text(v.z, unit);
 }
 
 /// Returns a lamp as --light takes it. What it lights gets about 1 W/m2.

@@ -40,7 +40,7 @@ Subcommand subcommand(Arguments& program, [[maybe_unused]] const Ranks& ranks) {
     if constexpr (requires { settings->ranks; })
         settings->ranks = &ranks;
     const Command command = add(program, *settings);
-    const auto run = [command, settings] {
+    const auto run = [=] {
         std::uint64_t seed = 0;
         if constexpr (requires { settings->options; })
             seed = settings->options.seed;

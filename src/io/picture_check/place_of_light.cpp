@@ -78,13 +78,13 @@ double kept_share(const Mesh& mesh, const Tracer& tracer, std::span<const std::u
     return all > 0 ? kept / all : 0;
 }
 
-std::string number(double value, const char* format) {
+std::string number_text(double value, const char* format) {
     char text[32];
     std::snprintf(text, sizeof text, format, value);
     return text;
 }
 
-double longest(const Vec3& extent) { return std::max({extent.x, extent.y, extent.z}); }
+double longest_side(const Vec3& extent) { return std::max({extent.x, extent.y, extent.z}); }
 
 } // namespace
 
@@ -128,10 +128,10 @@ std::string text_of(const PlaceOfLight& place, const Mesh& mesh) {
         if (!mesh.material(patch).is_far)
             all.include(box_of(patch.shape.corner));
     const double percent = std::floor(100 * std::min(place.of_light, 1.0) + 1e-9);
-    return number(percent, "%.0f %% of the light ") +
+    return number_text(percent, "%.0f %% of the light ") +
            (place.enclosed ? "stays inside " : "falls on ") + names +
-           number(longest(place.box.extent()), ", %.3g wide in a scene of ") +
-           number(longest(all.extent()) / mesh.frame().scale, "%.3g");
+           number_text(longest_side(place.box.extent()), ", %.3g wide in a scene of ") +
+           number_text(longest_side(all.extent()) / mesh.frame().scale, "%.3g");
 }
 
 } // namespace hemilux

@@ -22,7 +22,7 @@ struct Evidence {
     const char* reason; ///< words that follow "as"
 };
 
-double sum_of(const Vec3& colour) { return colour.r + colour.g + colour.b; }
+double brightness_of(const Vec3& colour) { return colour.r + colour.g + colour.b; }
 
 /// Returns the logarithm of a ratio, at most `limit` either way.
 double hint(double of_z, double of_y, double limit) {
@@ -67,7 +67,7 @@ struct Sums {
 
 void add_near(Sums& sums, const Patch& patch, const Vec3& emission, bool is_floor) {
     const Vec3 faces = patch.area * glm::abs(patch.normal);
-    const double power = patch.area * sum_of(emission);
+    const double power = patch.area * brightness_of(emission);
     sums.area += patch.area;
     sums.centroid += patch.area * patch.centre;
     sums.net += patch.area * patch.normal;
@@ -81,7 +81,7 @@ void add_near(Sums& sums, const Patch& patch, const Vec3& emission, bool is_floo
 
 void add_far(Sums& sums, const Patch& patch, const Vec3& emission) {
     const double distance = glm::length(patch.centre);
-    const double light = patch.area * sum_of(emission) / (distance * distance);
+    const double light = patch.area * brightness_of(emission) / (distance * distance);
     sums.sun += light * patch.centre / distance;
     sums.far += light;
 }
@@ -121,7 +121,7 @@ double standing(const Mesh& mesh, const Sums& sums, int axis) {
 
 void add_points(Sums& sums, const Mesh& mesh) {
     for (const PointEmitter& emitter : point_emitters_of(mesh.scene())) {
-        const double power = power_per_intensity(emitter) * sum_of(emitter.intensity);
+        const double power = power_per_intensity(emitter) * brightness_of(emitter.intensity);
         const double local = power * mesh.frame().scale * mesh.frame().scale;
         sums.emitter_place += local * mesh.frame().to_local(emitter.position);
         sums.emitted += local;

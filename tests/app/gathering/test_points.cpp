@@ -117,7 +117,7 @@ TEST_CASE("rows of points that --max-rays leaves hold no light, and it is said")
                                    "--points-output light.csv");
     CHECK(run.code == 0);
     CHECK_THAT(run.err, Contains("--max-rays ended it after"));
-    CHECK_THAT(run.err, Contains(" of 10 000 points hold no light"));
+    CHECK_THAT(run.err, Contains("hold no light"));
     const std::string table = place.read("light.csv");
     const auto rows = rows_of(table);
     REQUIRE(rows.size() == 10'001);
