@@ -36,7 +36,7 @@ std::vector<std::uint32_t> drawn_by_power(const Mesh& mesh, std::span<const doub
     double passed = 0;
     for (std::uint32_t i = 0; i < light.size() && sum > 0; ++i) {
         passed += mesh.patches()[i].area * light[i];
-        const auto due = static_cast<std::size_t>(count * passed / sum + 0.5);
+        const auto due = static_cast<std::size_t>(std::lround(count * passed / sum));
         if (drawn.size() < std::min(due, count))
             drawn.resize(std::min(due, count), i);
     }
