@@ -29,6 +29,8 @@ Kd .5 .5 .5
 newmtl <!--<script>
 Kd .8 .2 .2
 Ke 5 5 5
+newmtl red
+Kd .7 .2 .1
 MTL
 cat >hostile.obj <<'OBJ'
 mtllib hostile.mtl
@@ -43,6 +45,7 @@ v 0 1 1
 g </script><b>"group"</b>
 usemtl </script><script>hostile=1</script><img/src=x/onerror=hostile=1>"'&amp;
 f 4 3 2 1
+usemtl red
 f 1 2 6 5
 g ]]>'<i>
 usemtl <!--<script>
