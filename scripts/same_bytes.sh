@@ -13,7 +13,7 @@ here=$(cd "$(dirname "$0")/.." && pwd)
 [ $# -gt 0 ] || set -- "$here"/examples/scenes/*.obj
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-methods=$("$old_program" solve --help | sed -n '/^Methods:/,/^$/s/^  \([a-z0-9-]*\) .*/\1/p')
+methods=$("$old_program" solve --help | sed -n '/^Methods/,/^$/s/^  \([a-z0-9 -]*\)$/\1/p')
 
 differ=0
 for scene in "$@"; do

@@ -56,7 +56,7 @@ TEST_CASE("a terminal sees each long stage of a run, and nothing of it at the en
     const std::string seen = terminal.end();
 
     CHECK(code == 0);
-    CHECK_THAT(seen, Contains("] gathering the picture  "));
+    CHECK_THAT(seen, Contains(" %  gathering the picture  "));
     const std::size_t summary = seen.find("stored-transport: ");
     REQUIRE(summary != std::string::npos);
     CHECK(seen.find(']', summary) == std::string::npos);
