@@ -38,8 +38,8 @@ else
 fi
 
 echo
-echo "1. A model, lit: the picture's light is right to 2 %"
-$first "$scene" -o "$out/picture.png" -o "$out/mesh.ply" --stats "$out/statistics.json"
+echo "1. A model, lit, and how far the light of its picture is off: hemilux MODEL"
+$first "$scene" -o "$out/picture.png" --stats "$out/statistics.json"
 echo
 echo "The room, lit: $PWD/$out/picture.png"
 echo
@@ -66,7 +66,6 @@ Look at
     $PWD/$out/hemisphere.svg      a divided hemisphere with its counts
     $PWD/$out/compare/error.svg   error against rays and against time
     $PWD/$out/paper.csv           a row per patch: radiosity and its standard error
-    $PWD/$out/mesh.ply            the mesh with its radiosity as vertex colours
     $PWD/$out/statistics.json     rays, seconds, bytes, energy balance
 Go on with docs/use/tutorial.md (your own model), docs/paper/reading-guide.md (the paper), $hemilux solve --help
 END
