@@ -66,10 +66,15 @@ function(hemilux_first_of output)
   set(${output} ${first} PARENT_SCOPE)
 endfunction()
 
-# hemilux_compile_together(TARGET FILE...): makes these groups of the files of a target.
+# hemilux_compile_together(TARGET FILE...): makes these groups of the files of a target. Those of the first program are
+# apart, also where there is none, so that a unit has the same files in all builds.
 function(hemilux_compile_together target)
+  hemilux_first_of(first ${ARGN})
   foreach(file IN LISTS ARGN)
     hemilux_pattern_of(unit ${file} ${HEMILUX_TOGETHER})
+    if(file IN_LIST first)
+      string(APPEND unit _first)
+    endif()
     set_source_files_properties(${file} PROPERTIES UNITY_GROUP ${unit})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
