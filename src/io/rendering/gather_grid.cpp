@@ -44,6 +44,7 @@ GatherGrid::GatherGrid(const Mesh& mesh, const CameraRays& camera, int width, in
                              hit.facet};
         }
     });
+    check(); // before what is gathered takes memory
 }
 
 double GatherGrid::spacing(int x, int y) const {

@@ -219,6 +219,7 @@ RowsOfPicture render_rows(const Mesh& mesh, const Tracer& tracer, std::span<cons
              .coarse_rays = options.coarse_rays,
              .check = check},
             workers);
+        check();
         return gathered_picture(mesh, view.visible, gather, view.panes(), view.offsets,
                                 options.width, options.height, {check, options.rows_done}, workers);
     } catch (const Interrupted&) {
