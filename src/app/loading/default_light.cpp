@@ -9,7 +9,6 @@
 #include "io/scene_files/inspect.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/rays/make_tracer.h"
-#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/rooms/default_light.h"
 #include "radiosity/light/rooms/reached_places.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -44,16 +43,6 @@ std::vector<SeenPlace> places_of_picture(const Mesh& mesh, const Tracer& tracer,
     return places;
 }
 
-bool emits(const Scene& scene) {
-    const std::vector<bool> used = materials_in_use(scene);
-    for (std::size_t m = 0; m < used.size(); ++m)
-        if (used[m] && scene.materials[m].emission != Vec3(0.0))
-            return true;
-    return std::ranges::any_of(point_emitters_of(scene), [](const PointEmitter& emitter) {
-        return emitter.intensity != Vec3(0.0);
-    });
-}
-
 /// Returns a scene with the sides that were asked for; none is turned.
 Mesh mesh_of(Scene scene, Sides sides) {
     for (Facet& facet : scene.facets)
@@ -86,13 +75,7 @@ std::string coordinate_text(double x, double unit) {
         return formatted("%.12g", x);
     const int decimals = std::clamp(
         2 - static_cast<int>(std::floor(elementary::log(unit) / std::numbers::ln10)), 0, most);
-    std::string text = formatted("%.*f", decimals, x);
-    if (decimals > 0) {
-        text.erase(text.find_last_not_of('0') + 1);
-        if (text.ends_with('.'))
-            text.pop_back();
-    }
-    return text == "-0" ? "0" : text;
+    return rounded_text(x, decimals);
 }
 
 /// Returns a number above 0 to two digits.

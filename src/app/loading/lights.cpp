@@ -82,6 +82,16 @@ void add_lights(Scene& scene, const SceneSettings& settings) {
         add_sky(scene, "sky", bounds, *settings.sky);
 }
 
+bool emits(const Scene& scene) {
+    const std::vector<bool> used = materials_in_use(scene);
+    for (std::size_t m = 0; m < used.size(); ++m)
+        if (used[m] && scene.materials[m].emission != Vec3(0.0))
+            return true;
+    return std::ranges::any_of(point_emitters_of(scene), [](const PointEmitter& emitter) {
+        return emitter.intensity != Vec3(0.0);
+    });
+}
+
 std::vector<std::string> likely_lamps(const Scene& scene) {
     constexpr std::array<std::string_view, 16> words = {
         "lamp",  "light", "bulb",   "lantern", "neon", "glow", "emi",   "sun",

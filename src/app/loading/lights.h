@@ -13,6 +13,9 @@ namespace hemilux {
 /// added to a scene without faces.
 void add_lights(Scene& scene, const SceneSettings& settings);
 
+/// Returns whether a facet or a point emits light.
+[[nodiscard]] bool emits(const Scene& scene);
+
 /// Returns the materials whose names sound like emitters: "Ceiling_Light", "bulb", "lava".
 [[nodiscard]] std::vector<std::string> likely_lamps(const Scene& scene);
 

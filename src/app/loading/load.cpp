@@ -24,7 +24,6 @@
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/needs/unused_vertices.h"
-#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/layers/layered_mesh.h"
 
 #include <algorithm>
@@ -123,19 +122,14 @@ void check_solvable(const ReadResult& read, const std::string& path) {
                                    : "there is no face with an area");
     check_reflectances(read, path);
     const std::vector<bool> used = materials_in_use(read.scene);
-    bool emits =
-        std::ranges::any_of(point_emitters_of(read.scene), [](const PointEmitter& emitter) {
-            return emitter.intensity != Vec3(0.0);
-        });
     std::vector<std::string> names;
     for (std::size_t m = 0; m < used.size(); ++m) {
         if (!used[m])
             continue;
         check_emission(read.scene.materials[m], path);
-        emits = emits || read.scene.materials[m].emission != Vec3(0.0);
         names.push_back(read.scene.materials[m].name);
     }
-    if (!emits)
+    if (!emits(read.scene))
         throw InputError(path, no_light_text(read.scene, names));
 }
 

@@ -34,13 +34,7 @@ std::string place_text(double coordinate, double far) {
     constexpr int digits = 6, most = 17;
     const int decimals =
         std::clamp(digits - static_cast<int>(std::floor(std::log10(far))), 0, most);
-    std::string text = formatted("%.*f", decimals, coordinate);
-    if (decimals > 0) {
-        text.erase(text.find_last_not_of('0') + 1);
-        if (text.ends_with('.'))
-            text.pop_back();
-    }
-    return text == "-0" ? "0" : text;
+    return rounded_text(coordinate, decimals);
 }
 
 std::string angle_text(double degrees) { return formatted("%.6g", degrees); }

@@ -16,6 +16,16 @@ std::string formatted(const char* format, ...) {
     return buffer.data();
 }
 
+std::string rounded_text(double number, int decimals) {
+    std::string text = formatted("%.*f", decimals, number);
+    if (decimals > 0) {
+        text.erase(text.find_last_not_of('0') + 1);
+        if (text.ends_with('.'))
+            text.pop_back();
+    }
+    return text == "-0" ? "0" : text;
+}
+
 std::string short_count(double count) {
     static constexpr std::array<const char*, 5> units{"", " k", " M", " G", " T"};
     std::size_t unit = 0;

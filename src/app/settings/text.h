@@ -10,6 +10,8 @@ namespace hemilux {
 
 /// Formats like printf into a std::string.
 [[nodiscard, gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+/// Returns a number rounded to so many decimals, without zeros at its end: 1.25, -3, 0.
+[[nodiscard]] std::string rounded_text(double number, int decimals);
 /// Returns a count as 999, 12.3 k, 4.56 M or 7.89 G.
 [[nodiscard]] std::string short_count(double count);
 /// Returns a whole number with its digits in groups of three, as 1 234 567.

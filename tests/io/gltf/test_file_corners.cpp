@@ -126,6 +126,20 @@ ReadResult changed_file(const TemporaryFolder& folder, Engine& engine) {
     }
 }
 
+/// A random file that was read, changed and divided, and is opened again to be written.
+struct Reopened {
+    Reopened(const TemporaryFolder& folder, Engine& engine)
+        : read(changed_file(folder, engine)), mesh(layered_mesh(std::move(read.scene), {})),
+          source(folder.path("s.gltf"), {}, Outside::reported, read.origins),
+          all(read.origins.size()) {
+        std::iota(all.begin(), all.end(), std::size_t{0});
+    }
+    ReadResult read; ///< but for its scene, which the mesh has
+    Mesh mesh;
+    gltf::LitSource source;
+    std::vector<std::size_t> all; ///< numbers of its origins
+};
+
 std::vector<ChartSide> fronts(const Mesh& mesh) {
     std::vector<ChartSide> sides;
     for (std::uint32_t f = 0; f < mesh.scene().facets.size(); ++f)
@@ -146,21 +160,18 @@ TEST_CASE("a corner keeps its texture coordinates and its normal, whatever is dr
     const TemporaryFolder folder;
     std::size_t corners = 0;
     for (int file = 0; file < 300; ++file) {
-        ReadResult read = changed_file(folder, engine);
-        const Mesh mesh = layered_mesh(std::move(read.scene), {});
-        gltf::LitSource source(folder.path("s.gltf"), {}, Outside::reported, read.origins);
-        std::vector<std::size_t> all(read.origins.size());
-        std::iota(all.begin(), all.end(), std::size_t{0});
+        Reopened opened(folder, engine);
+        const Mesh& mesh = opened.mesh;
         const std::vector<ChartSide> sides = fronts(mesh);
         bool same = true;
 
-        PlacesOfFile found = gltf::places_in_set(source, mesh, sides, 1, all);
+        PlacesOfFile found = gltf::places_in_set(opened.source, mesh, sides, 1, opened.all);
         for (const PlacedTriangle& triangle : found.triangles)
             for (std::size_t k = 0; k < 3; ++k, ++corners)
                 same = same && triangle.place[k] == place_of_corner(mesh, triangle.facet, k);
         CHECK(same);
 
-        const std::vector<CornerNormals> normals = gltf::normals_of_file(source, mesh);
+        const std::vector<CornerNormals> normals = gltf::normals_of_file(opened.source, mesh);
         for (std::uint32_t f = 0; f < normals.size(); ++f)
             for (std::size_t k = 0; k < 3; ++k) {
                 const Vec2 slope = Vec2(normals[f][k]) / std::abs(double(normals[f][k].z));
@@ -178,11 +189,8 @@ TEST_CASE("coordinates of an atlas reach the corners that they were made for", "
     const TemporaryFolder folder;
     std::size_t corners = 0;
     for (int file = 0; file < 300; ++file) {
-        ReadResult read = changed_file(folder, engine);
-        const Mesh mesh = layered_mesh(std::move(read.scene), {});
-        gltf::LitSource source(folder.path("s.gltf"), {}, Outside::reported, read.origins);
-        std::vector<std::size_t> all(read.origins.size());
-        std::iota(all.begin(), all.end(), std::size_t{0});
+        Reopened opened(folder, engine);
+        const Mesh& mesh = opened.mesh;
         std::vector<PlacedTriangle> placed;
         for (std::uint32_t f = 0; f < mesh.scene().facets.size(); ++f) {
             placed.push_back({f, false, false, f, {}}); // a chart for each facet
@@ -192,9 +200,9 @@ TEST_CASE("coordinates of an atlas reach the corners that they were made for", "
         const std::vector<std::uint32_t> by_face = gltf::facets_by_face(mesh);
         bool same = true;
         for (const gltf::AtlasCoordinates& atlas :
-             gltf::atlas_coordinates(source, mesh, placed, all)) {
-            const PrimitiveOrigin& origin = read.origins[atlas.origin];
-            const gltf::Triangles triangles = source.triangles_of(origin, 1);
+             gltf::atlas_coordinates(opened.source, mesh, placed, opened.all)) {
+            const PrimitiveOrigin& origin = opened.read.origins[atlas.origin];
+            const gltf::Triangles triangles = opened.source.triangles_of(origin, 1);
             for (std::uint32_t t = 0; t < origin.faces; ++t)
                 for (std::size_t k = 0; by_face[origin.first_face + t] != none && k < 3; ++k)
                     same = same && ++corners > 0 &&
