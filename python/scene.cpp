@@ -164,7 +164,7 @@ std::unique_ptr<PythonMesh> read_mesh(const std::string& path,
         if (fault.starts_with(path + ": "))
             fault.erase(0, path.size() + 2);
     }
-    const int up_axis = up.value_or(view_of_file(path, read).up.value_or(2));
+    const int up_axis = up.value_or(view_of_file(path, read).usual_up.value_or(2));
     return finish(std::move(read), settings, up_axis, std::move(fault));
 }
 
