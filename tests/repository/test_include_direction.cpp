@@ -71,6 +71,8 @@ const std::vector<std::string> rooms{
     "radiosity/answers/picture_check",
     "radiosity/answers/charts",
     "radiosity/answers/lightmaps",
+    "radiosity/answers/gathering",
+    "radiosity/answers/lamps",
     "mpi",
     "io/files",
     "io/textures",

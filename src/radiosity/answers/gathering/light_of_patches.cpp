@@ -1,6 +1,5 @@
-#include "app/gathering/target_light.h"
+#include "radiosity/answers/gathering/light_of_patches.h"
 
-#include "app/gathering/learn_options.h"
 #include "geometry/elementary.h"
 #include "geometry/polygon_sampler.h"
 #include "parallel/stopwatch.h"
@@ -11,6 +10,7 @@
 #include "radiosity/paper/scene/mesh.h"
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace hemilux {
@@ -58,19 +58,11 @@ struct PatchMean {
 
 } // namespace
 
-bool gathers_target(const SolveSettings& settings) {
-    const TargetSettings& target = settings.target;
-    return !target.camera && (!target.groups.empty() || !target.points.empty()) &&
-           !settings.divide_auto && !settings.stop.steps;
-}
-
-void gather_target(const SolveSettings& settings, const LitScene& scene, Solution& solution,
-                   Monitor& monitor, Statistics& statistics) {
+std::optional<Answer<Solution>> gather_patches(const LitScene& scene, const Solution& solution,
+                                               const Asked& asked, Monitor& monitor) {
     const Stopwatch watch;
-    const Workers workers(settings.options.threads);
+    const Workers workers(asked.threads);
     const Mesh& mesh = scene.mesh;
-    constexpr double usual_error = .01;
-    const double error = settings.stop.error.value_or(usual_error);
     std::vector<std::uint32_t> patches;
     std::vector<TargetPart> parts;
     std::vector<Sensor> sensors;
@@ -80,43 +72,43 @@ void gather_target(const SolveSettings& settings, const LitScene& scene, Solutio
     const std::size_t rows = patches.size() > many_patches ? max_rows / 2 : max_rows,
                       points_of_patch = 2 * rows * rows;
     for (const std::uint32_t i : patches) {
-        parts.push_back(part_of(mesh, i, solution.weight_of(i), rows, settings.options.seed));
+        parts.push_back(part_of(mesh, i, solution.weight_of(i), rows, asked.seed));
         for (const SurfacePoint& point : parts.back().points)
             sensors.push_back({point, i});
     }
     LightCache cache(mesh, scene.tracer, solution);
-    const LearnOptions options =
-        learn_options(settings, share_of_learned * error, hash_words({settings.options.seed, 8}),
-                      solution, statistics);
+    LearnOptions options{.seed = hash_words({asked.seed, 8}),
+                         .error = share_of_learned * asked.error,
+                         .accuracy = asked.accuracy};
+    options.max_rays = asked.max_rays.value_or(options.max_rays);
     const ReadError read = cache.learn(parts, options, workers, monitor.interrupted);
     if (monitor.interrupted)
-        return;
+        return std::nullopt;
     const LightAtPoints found =
         light_at(sensors, mesh, scene.tracer, cache.light(),
-                 {.noise = share_of_rays * error * std::sqrt(double(points_of_patch)),
-                  .seed = hash_words({settings.options.seed, 9}),
+                 {.noise = share_of_rays * asked.error * std::sqrt(double(points_of_patch)),
+                  .seed = hash_words({asked.seed, 9}),
                   .give_up = [&] { return bool(monitor.interrupted); }},
                  workers);
     if (monitor.interrupted)
-        return;
+        return std::nullopt;
+    Answer<Solution> answer{solution, {}, {read.rays, found.rays, 0, 0}};
     double noise = 0, light = 0;
     for (std::size_t k = 0; k < patches.size(); ++k) {
         const std::uint32_t i = patches[k];
         const PatchMean mean(parts[k],
                              std::span(found.lights).subspan(k * points_of_patch, points_of_patch));
         const Vec3 of_read(read.error * read.level);
-        solution.radiosity[i] = mesh.material(i).emission + mean.reflected;
-        solution.standard_error[i] = glm::sqrt(mean.variance + of_read * of_read);
+        answer.value.radiosity[i] = mesh.material(i).emission + mean.reflected;
+        answer.value.standard_error[i] = glm::sqrt(mean.variance + of_read * of_read);
         noise += parts[k].weight * (mean.variance.x + mean.variance.y + mean.variance.z);
         light += parts[k].weight * glm::dot(mean.reflected, mean.reflected);
     }
     const double own = light > 0 ? std::sqrt(noise / light) : 0;
-    statistics.estimated_error = elementary::hypot(read.error, own);
-    statistics.error_bound = elementary::hypot(read.bound, own);
-    statistics.estimated_error_uncertainty = read.uncertainty;
-    statistics.rays_learn += read.rays;
-    statistics.rays_gather += found.rays;
-    statistics.seconds_learn += watch.seconds();
+    answer.error = {elementary::hypot(read.error, own), elementary::hypot(read.bound, own),
+                    read.uncertainty, AnswerError::unknown};
+    answer.work.seconds_learn = watch.seconds();
+    return answer;
 }
 
 } // namespace hemilux
