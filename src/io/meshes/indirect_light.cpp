@@ -1,6 +1,7 @@
 #include "io/meshes/indirect_light.h"
 
 #include "io/files/error.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/paper/rays/patch_start.h"
 
 namespace hemilux {
