@@ -28,6 +28,7 @@ const std::vector<std::string> rooms{
     "radiosity/paper/pages",
     "parallel",
     "bvh/wide",
+    "radiosity/engine/cells",
     "radiosity/engine/sampling",
     "radiosity/engine/rays",
     "radiosity/engine/target",

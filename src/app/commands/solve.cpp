@@ -46,6 +46,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <span>
 
 namespace hemilux {
@@ -245,8 +246,9 @@ Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference
     Monitor& monitor = problem.monitor;
     StopRule stop = stop_rule(settings, mesh.patches().size(), divided.sampling);
     UsefulPicture picture(settings, mesh, problem.tracer());
+    std::function<bool(const Solution&)> useful;
     if (settings.useful)
-        stop.useful = [&](const Solution& image) {
+        useful = [&](const Solution& image) {
             const double similarity = picture.similarity(image);
             log_line(settings.verbosity, Verbosity::verbose,
                      formatted("picture: similarity of %.4f to one without noise", similarity));
@@ -302,7 +304,7 @@ Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference
         show_last_row(done.solver->solution());
     }
     try {
-        done.completed = run(*done.solver, problem.input(), stop, after_step, before);
+        done.completed = run(*done.solver, problem.input(), stop, after_step, before, useful);
     } catch (const SolveError& error) {
         if (done.solver->solution().steps == 0)
             throw;

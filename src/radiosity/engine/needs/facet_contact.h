@@ -37,11 +37,6 @@ inline constexpr double between_layers = 1e-9;
 /// Returns whether polygon a lies within b, given that it lies in its plane.
 [[nodiscard]] bool lies_within(const Polygon& a, const Polygon& b);
 
-[[nodiscard]] inline bool overlap(const Box& a, const Box& b) {
-    return glm::all(glm::lessThanEqual(a.low, b.high)) &&
-           glm::all(glm::lessThanEqual(b.low, a.high));
-}
-
 /// Calls visit(f, g) for each pair of polygons whose boxes overlap or touch and one of which is
 /// `wanted`, in either order. Sorts them along x (Cohen et al. 1995, "I-COLLIDE"). Returns false
 /// where that is given up, as there are too many to be compared.
@@ -67,7 +62,7 @@ bool for_each_close_pair(std::span<const Polygon> shapes, const std::vector<bool
     const auto visit_after = [&](const Item& item, auto first, auto last) {
         for (; first != last && first->box.low.x <= item.box.high.x; ++first) {
             ++looks;
-            if (overlap(item.box, first->box)) {
+            if (meet(item.box, first->box)) {
                 ++pairs;
                 visit(item.shape, first->shape);
             }

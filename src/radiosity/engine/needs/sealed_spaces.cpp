@@ -129,7 +129,7 @@ class Places {
                 const std::uint32_t a = order[i], b = order[j];
                 if (surfaces_[b].box.low.x > surfaces_[a].box.high.x)
                     break;
-                if (!overlap(surfaces_[a].box, surfaces_[b].box))
+                if (!meet(surfaces_[a].box, surfaces_[b].box))
                     continue;
                 may_hold[a] = may_hold[a] || holds_facet(surfaces_[a], surfaces_[b]);
                 may_hold[b] = may_hold[b] || holds_facet(surfaces_[b], surfaces_[a]);
@@ -241,7 +241,7 @@ class Places {
             front_[s] = winding_in_front(s);
             for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
                 const std::uint32_t of = surface_of_[pieces_[p].facets[0]];
-                if (of == s || !overlap(surfaces_[s].box, pieces_[p].box))
+                if (of == s || !meet(surfaces_[s].box, pieces_[p].box))
                     continue;
                 const int number =
                     crossing_.contains({of, s}) ? Winding::unknown : winding_at(s, pieces_[p]);

@@ -1,5 +1,6 @@
 #include "radiosity/engine/view_factors/row_rays.h"
 
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/view_factors/rows_done.h"
 #include "radiosity/engine/view_factors/sky_bands.h"

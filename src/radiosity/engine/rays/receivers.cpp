@@ -1,4 +1,4 @@
-#include "radiosity/paper/rays/receivers.h"
+#include "radiosity/engine/rays/receivers.h"
 
 #include "radiosity/paper/scene/mesh.h"
 

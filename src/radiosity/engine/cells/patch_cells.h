@@ -6,6 +6,7 @@
 // of its own shape. Going down with the coordinates inside finds the leaf that a ray has hit.
 
 #include "geometry/polygon.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <array>
 #include <cstdint>
@@ -39,21 +40,31 @@ enum class CellCut : std::uint8_t { leaf, four, across_x, across_y };
 [[nodiscard]] std::uint32_t piece_at_point(CellCut by, bool triangle, Vec2& at);
 
 /// The cells of all facets.
-class CellTree {
+class CellTree final : public FinerPatches {
   public:
     struct Cell {
         std::uint32_t first = 0; ///< the first of its pieces; of a leaf, the patch
         CellCut cut = CellCut::leaf;
     };
+    explicit CellTree(std::size_t facets) : first_cell_(facets, none) {}
+
     /// Adds `count` consecutive cells and returns the index of the first.
     std::uint32_t add(std::uint32_t count);
+    /// Adds a cell for each piece of a facet and returns the index of the first.
+    std::uint32_t add_pieces(std::uint32_t facet, std::uint32_t pieces);
+    [[nodiscard]] std::uint32_t first_cell(std::uint32_t facet) const { return first_cell_[facet]; }
     [[nodiscard]] Cell& operator[](std::uint32_t cell) { return cells_[cell]; }
     [[nodiscard]] const Cell& operator[](std::uint32_t cell) const { return cells_[cell]; }
-    /// Returns the patch of the leaf below `cell` that holds a point.
-    [[nodiscard]] std::uint32_t patch_at(std::uint32_t cell, bool triangle, Vec2 at) const;
+
+    [[nodiscard]] bool divides(std::uint32_t facet) const override {
+        return first_cell_[facet] != none;
+    }
+    [[nodiscard]] std::uint32_t patch_at(std::uint32_t facet, const FacetDivision& pieces,
+                                         const FacetDivision::Place& place) const override;
 
   private:
     std::vector<Cell> cells_;
+    std::vector<std::uint32_t> first_cell_; ///< by facet: that of its first piece; none: no cells
 };
 
 } // namespace hemilux

@@ -1,4 +1,4 @@
-#include "radiosity/paper/scene/patch_cells.h"
+#include "radiosity/engine/cells/patch_cells.h"
 
 #include <algorithm>
 
@@ -91,11 +91,16 @@ std::uint32_t CellTree::add(std::uint32_t count) {
     return first;
 }
 
-std::uint32_t CellTree::patch_at(std::uint32_t cell, bool triangle, Vec2 at) const {
-    while (cells_[cell].cut != CellCut::leaf) {
-        const std::uint32_t piece = piece_at_point(cells_[cell].cut, triangle, at);
-        cell = cells_[cell].first + piece;
-    }
+std::uint32_t CellTree::add_pieces(std::uint32_t facet, std::uint32_t pieces) {
+    return first_cell_[facet] = add(pieces);
+}
+
+std::uint32_t CellTree::patch_at(std::uint32_t facet, const FacetDivision& pieces,
+                                 const FacetDivision::Place& place) const {
+    std::uint32_t cell = first_cell_[facet] + place.piece;
+    Vec2 at = place.inside;
+    while (cells_[cell].cut != CellCut::leaf)
+        cell = cells_[cell].first + piece_at_point(cells_[cell].cut, pieces.is_similar(), at);
     return cells_[cell].first;
 }
 
