@@ -14,9 +14,9 @@
 #include "bvh/wide/wide_bvh.h"
 #include "io/results/factor_files.h"
 #include "radiosity/answers/asked/text.h"
+#include "radiosity/engine/factors/points/hemicube.h"
 #include "radiosity/engine/form_factors/exact_form_factors.h"
 #include "radiosity/engine/form_factors/factor_options.h"
-#include "radiosity/engine/form_factors/hemicube.h"
 #include "radiosity/engine/form_factors/matrix_quality.h"
 #include "radiosity/engine/solving/own_options.h"
 

@@ -1,5 +1,6 @@
 #include "radiosity/engine/form_factors/factor_options.h"
 
+#include "radiosity/engine/factors/points/hemicube.h"
 #include "radiosity/engine/form_factors/exact_form_factors.h"
 #include "radiosity/engine/form_factors/hemicube.h"
 #include "radiosity/engine/solving/method_option.h"
