@@ -1,4 +1,6 @@
 #include "app/command_line/option_groups.h"
+#include "app/settings/camera_text.h"
+#include "radiosity/answers/images/tone.h"
 
 #include "app/command_line/option_kinds.h"
 #include "app/memory/memory.h"

@@ -2,7 +2,6 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/overrides.h"
-#include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
@@ -10,6 +9,7 @@
 #include "io/files/text_reader.h"
 #include "io/files/text_words.h"
 #include "io/results/csv.h"
+#include "radiosity/answers/asked/text.h"
 #include "radiosity/engine/view_factors/row_rays.h"
 #include "radiosity/paper/scene/mesh.h"
 

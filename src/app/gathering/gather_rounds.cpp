@@ -2,12 +2,12 @@
 
 #include "app/division/whole_error.h"
 #include "app/gathering/learn_options.h"
-#include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/stage.h"
-#include "app/terminal/stopwatch.h"
 #include "geometry/elementary.h"
 #include "io/files/error.h"
+#include "parallel/stopwatch.h"
+#include "radiosity/answers/asked/text.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>

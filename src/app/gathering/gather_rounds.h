@@ -4,9 +4,9 @@
 
 #include "app/settings/settings.h"
 #include "geometry/elementary.h"
-#include "io/rendering/picture_error.h"
 #include "io/results/statistics.h"
 #include "parallel/workers.h"
+#include "radiosity/answers/pictures/picture_error.h"
 #include "radiosity/light/cached_light/light_cache.h"
 #include "radiosity/paper/solving/solver.h"
 

@@ -3,8 +3,8 @@
 
 #include "app/settings/settings.h"
 #include "io/gltf/lit_source.h"
-#include "io/lightmaps/texel_map.h"
 #include "io/scene_files/lit_obj.h"
+#include "radiosity/answers/lightmaps/texel_map.h"
 #include "radiosity/paper/solution/solution.h"
 
 #include <cstddef>

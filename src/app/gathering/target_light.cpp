@@ -1,9 +1,9 @@
 #include "app/gathering/target_light.h"
 
 #include "app/gathering/learn_options.h"
-#include "app/terminal/stopwatch.h"
 #include "geometry/elementary.h"
 #include "geometry/polygon_sampler.h"
+#include "parallel/stopwatch.h"
 #include "parallel/workers.h"
 #include "radiosity/light/cached_light/light_cache.h"
 #include "radiosity/light/final_gather/light_at_points.h"

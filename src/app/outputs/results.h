@@ -7,10 +7,10 @@
 #include "app/report/run_data.h"
 #include "app/running/write_report.h"
 #include "app/settings/settings.h"
-#include "app/terminal/stopwatch.h"
 #include "io/results/points.h"
 #include "io/results/statistics.h"
 #include "io/results/tables.h"
+#include "parallel/stopwatch.h"
 #include "radiosity/paper/solving/solver.h"
 
 #include <span>

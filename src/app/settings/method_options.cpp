@@ -2,7 +2,7 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
-#include "app/settings/text.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <algorithm>
 #include <cmath>

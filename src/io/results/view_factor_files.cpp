@@ -3,6 +3,7 @@
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/little_endian.h"
+#include "io/files/provenance.h"
 #include "io/files/stored_zip.h"
 #include "io/results/csv.h"
 #include "io/results/factor_files.h"

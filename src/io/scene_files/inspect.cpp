@@ -2,9 +2,9 @@
 
 #include "geometry/polygon.h"
 #include "io/files/text_words.h"
-#include "io/scene_files/emitter_shapes.h"
 #include "radiosity/engine/needs/welded_edges.h"
 #include "radiosity/engine/rays/point_emitter.h"
+#include "radiosity/light/lamps/emitter_shapes.h"
 #include "radiosity/light/layers/coplanar_layers.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/check_input.h"
