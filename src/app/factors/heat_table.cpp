@@ -11,7 +11,6 @@
 #include "io/results/csv.h"
 #include "radiosity/answers/asked/text.h"
 #include "radiosity/engine/factors/rows/row_rays.h"
-#include "radiosity/engine/view_factors/row_rays.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
