@@ -1,5 +1,5 @@
 #pragma once
-// A camera as the command line describes it.
+// A camera as options describe it.
 
 #include "radiosity/answers/views/camera.h"
 

@@ -1,4 +1,4 @@
-#include "app/settings/camera_text.h"
+#include "io/scene_files/camera_text.h"
 
 #include "io/files/text_words.h"
 
