@@ -8,6 +8,7 @@
 #include "radiosity/answers/run/lost_light.h"
 #include "radiosity/answers/run/run_findings.h"
 #include "radiosity/answers/run/unknown_groups.h"
+#include "radiosity/engine/solving/method_option.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 
 namespace hemilux {
@@ -32,7 +33,7 @@ void check(const RunNumbers& numbers) {
 }
 
 /// Sets the options that belong to the method.
-void set_own(const Method& method, const RunNumbers& numbers, SolveOptions& options) {
+void set_own_options(const Method& method, const RunNumbers& numbers, SolveOptions& options) {
     const std::vector<MethodOption> known = method.own_options();
     for (const auto& [name, value] : numbers.own) {
         const auto option = std::ranges::find(known, name, &MethodOption::name);
@@ -105,7 +106,7 @@ SolveSettings settings_of(const Method& method, const RunNumbers& numbers) {
     options.threads = numbers.threads;
     if (numbers.literal && !method.has_literal)
         throw UsageError("literal: " + std::string(method.name) + " has no printed rules");
-    set_own(method, numbers, options);
+    set_own_options(method, numbers, options);
     check_own_options(options, {&settings.method, 1});
     settings.stop = {.steps = numbers.steps,
                      .seconds = numbers.seconds,

@@ -8,7 +8,6 @@
 #include "app/gathering/lightmap_layout.h"
 #include "app/gathering/point_table.h"
 #include "app/gathering/shown_camera.h"
-#include "app/gathering/target_light.h"
 #include "app/lamps/lamp_light.h"
 #include "app/loading/load.h"
 #include "app/loading/reference.h"
@@ -23,6 +22,7 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/method_options.h"
 #include "app/terminal/log.h"
+#include "app/terminal/program_watcher.h"
 #include "app/terminal/stage.h"
 #include "app/terminal/summary.h"
 #include "app/terminal/unused_options.h"
@@ -32,6 +32,7 @@
 #include "radiosity/answers/asked/text.h"
 #include "radiosity/answers/charts/charts.h"
 #include "radiosity/answers/division/division.h"
+#include "radiosity/answers/gathering/light_of_patches.h"
 #include "radiosity/answers/run/run_findings.h"
 #include "radiosity/answers/run/step_size.h"
 #include "radiosity/engine/solving/shared_stop.h"
@@ -178,7 +179,7 @@ Divided divide(const Task& task, Problem problem) {
     if (!settings.divide_auto)
         return {.problem = std::make_shared<const Problem>(std::move(problem))};
     const Stage stage("dividing patches", settings.verbosity);
-    TerminalWatcher watcher(settings.verbosity);
+    ProgramWatcher watcher(settings.verbosity);
     return divide(std::move(problem), task.choices, division_choices(settings), task.monitor,
                   watcher);
 }
@@ -279,6 +280,16 @@ std::vector<NamedLayout> lightmap_layouts(const Task& problem) {
     return layouts;
 }
 
+/// Adds what it took to gather the light of a target, and its error, which is that of the run.
+void add_target(Statistics& statistics, const Answer<Solution>& gathered) {
+    statistics.estimated_error = gathered.error.whole;
+    statistics.error_bound = gathered.error.bound;
+    statistics.estimated_error_uncertainty = gathered.error.uncertainty;
+    statistics.rays_learn += gathered.work.rays_learn;
+    statistics.rays_gather += gathered.work.rays_gather;
+    statistics.seconds_learn += gathered.work.seconds_learn;
+}
+
 /// The light of the outputs.
 struct GivenLight {
     GatheredLight gathered;
@@ -293,13 +304,12 @@ GivenLight give_light(const Task& problem, Done& done, const Solution& solution,
     // Without a step, a file of the scene's own has the light of its lamps; values are not known.
     if (solution.steps == 0 && !settings.file_bake.asked)
         return {};
-    const std::span<const NamedPoint> points =
-        solution.steps > 0 ? problem.loaded.points : std::span<const NamedPoint>();
     const LitScene lit = lit_scene(problem, solution);
-    const bool gathers_here = gathers(settings) && settings.ranks->is_first();
+    const Asked asked = asked_of_gathers(settings, solution, statistics);
+    WantedLight wanted{.bake = settings.bake, .error_of_patches = statistics.estimated_error};
     std::vector<NamedLayout> layouts;
     GivenLight given;
-    if (gathers_here) {
+    if (gathers(settings) && settings.ranks->is_first()) {
         const OnThisRank works_alone(problem.monitor.interrupted);
         if (has_pictures(settings) && !done.camera)
             done.camera = shown_camera_of(settings.view, lit, settings.verbosity);
@@ -308,15 +318,22 @@ GivenLight give_light(const Task& problem, Done& done, const Solution& solution,
             preview.begin_gathering(lit, solution, *done.camera);
         preview_lit_file(settings, lit, solution, problem.loaded.file_lightmap, layouts,
                          problem.monitor.interrupted.own().wished);
-        given.gathered =
-            gather_light(settings, lit, solution, points, done.camera.value_or(Camera()), layouts,
-                         problem.monitor, statistics, {},
-                         [&](const Image& rows, int count) { preview.show_rows(rows, count); });
+        if (solution.steps > 0)
+            wanted.points = wanted_points(problem.loaded.points);
+        wanted.lightmaps = layouts;
+        if (gathers_picture(settings))
+            wanted.picture = {*done.camera, settings.view.size, [&](const Image& rows, int count) {
+                                  preview.show_rows(rows, count);
+                              }};
+        ProgramWatcher watcher(settings.verbosity);
+        Gatherer gatherer(lit, solution, asked, problem.monitor, watcher);
+        given.gathered = gather(gatherer, wanted);
+        add_gathered(statistics, settings, given.gathered);
+        log_error_of_points(settings, given.gathered);
     }
-    given.lamps = find_lamp_light(settings,
-                                  {lit, *done.run.solver, solution, given.gathered,
-                                   problem.loaded.points, done.camera.value_or(Camera()), layouts},
-                                  problem.monitor, statistics);
+    given.lamps =
+        find_lamp_light(settings, {lit, *done.run.solver, solution, given.gathered, wanted, asked},
+                        problem.monitor, statistics);
     return given;
 }
 
@@ -378,10 +395,14 @@ int solve(Task& task, Problem undivided, const Stopwatch& started) {
         task.settings().ranks->is_first()) {
         const OnThisRank works_alone(task.monitor.interrupted);
         const Stage stage("gathering the light of the target", task.settings().verbosity);
-        of_target = *solution;
-        gather_target(task.settings(), lit_scene(task, *solution), *of_target, task.monitor,
-                      statistics);
-        solution = &*of_target;
+        std::optional<Answer<Solution>> gathered =
+            gather_patches(lit_scene(task, *solution), *solution,
+                           asked_of_target(task.settings(), *solution, statistics), task.monitor);
+        if (gathered) {
+            add_target(statistics, *gathered);
+            of_target = std::move(gathered->value);
+            solution = &*of_target;
+        }
     }
     const GivenLight given = give_light(task, done, *solution, statistics, preview);
     return write(task, done, *solution, statistics, given, reference, started);

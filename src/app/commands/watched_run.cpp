@@ -14,10 +14,9 @@ namespace hemilux {
 WatchedRun::WatchedRun(const SolveSettings& settings, const Problem& problem, const StopRule& stop,
                        Monitor& monitor, const std::optional<Reference>& reference,
                        Preview& preview)
-    : TerminalWatcher(settings.verbosity), settings_(settings), problem_(problem),
-      reference_(reference), preview_(preview),
-      progress_(monitor, share_of(stop, *settings.method),
-                settings.verbosity != Verbosity::quiet && stderr_is_terminal()),
+    : shown_(settings.verbosity), settings_(settings), problem_(problem), reference_(reference),
+      preview_(preview), progress_(monitor, share_of(stop, *settings.method),
+                                   settings.verbosity != Verbosity::quiet && stderr_is_terminal()),
       picture_(settings, *problem.mesh, *problem.tracer),
       pictures_(settings, *problem.mesh, *problem.tracer, monitor.interrupted.own().wished) {}
 

@@ -8,12 +8,15 @@
 #include "app/outputs/useful_picture.h"
 #include "app/report/run_data.h"
 #include "app/running/checkpointing.h"
+#include "app/terminal/program_watcher.h"
 #include "app/terminal/progress.h"
-#include "app/terminal/terminal_watcher.h"
 #include "io/results/tables.h"
 #include "radiosity/answers/run/run.h"
 
+#include <atomic>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace hemilux {
@@ -28,7 +31,7 @@ struct KeptSteps {
 };
 
 /// Watches a run; it refers to its arguments.
-class WatchedRun : public TerminalWatcher {
+class WatchedRun : public RunWatcher {
   public:
     /// Begins to show that a run is made that ends so.
     WatchedRun(const SolveSettings& settings, const Problem& problem, const StopRule& stop,
@@ -39,6 +42,11 @@ class WatchedRun : public TerminalWatcher {
     /// Begins to watch a run that goes on after these rows of a checkpoint.
     void watch_resumed(const Run& run, const std::vector<StepRow>& rows);
 
+    [[nodiscard]] std::unique_ptr<Stage> begin(const std::string& name,
+                                               const std::atomic<double>* share) override {
+        return shown_.begin(name, share);
+    }
+    void take(const Finding& finding) override { shown_.take(finding); }
     void step_done(const StepRecord& record, const Solution& solution) override;
     [[nodiscard]] bool is_useful(const Solution& solution) override;
 
@@ -50,6 +58,7 @@ class WatchedRun : public TerminalWatcher {
     void keep_light(const Solution& solution);
     void show_last_row(const Solution& solution);
 
+    ProgramWatcher shown_;
     const SolveSettings& settings_;
     const Problem& problem_;
     const std::optional<Reference>& reference_;

@@ -7,9 +7,9 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
 #include "app/terminal/log.h"
+#include "app/terminal/program_watcher.h"
 #include "app/terminal/stage.h"
 #include "app/terminal/summary.h"
-#include "app/terminal/terminal_watcher.h"
 #include "io/files/error.h"
 #include "io/gltf/gltf.h"
 #include "io/scene_files/glass.h"
@@ -177,13 +177,13 @@ ViewSettings view_of(const ViewSettings& asked, const FileView& file, Verbosity 
 Prepared prepare(LoadedMesh& loaded, const SolveOptions& options, Verbosity verbosity) {
     const Stopwatch preparing;
     /// Keeps what it warns of.
-    struct Keeping : TerminalWatcher {
+    struct Keeping : ProgramWatcher {
         Keeping(Verbosity wanted, std::vector<std::string>& warnings)
-            : TerminalWatcher(wanted), kept(warnings) {}
+            : ProgramWatcher(wanted), kept(warnings) {}
         void take(const Finding& finding) override {
             if (finding.kind == Finding::Kind::warning)
                 kept.push_back(finding.with_advice());
-            TerminalWatcher::take(finding);
+            ProgramWatcher::take(finding);
         }
         std::vector<std::string>& kept;
     };

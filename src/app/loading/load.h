@@ -7,6 +7,7 @@
 #include "io/scene_files/read_result.h"
 #include "radiosity/answers/run/problem.h"
 #include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/paper/scene/needs.h"
 #include "radiosity/paper/solution/solve_error.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "app/loading/sides.h"
 
 #include "app/loading/load.h"
-#include "app/terminal/terminal_watcher.h"
+#include "app/terminal/program_watcher.h"
 #include "io/scene_files/inspect.h"
 #include "radiosity/answers/asked/text.h"
 
@@ -9,7 +9,7 @@ namespace hemilux {
 
 SidedMesh divide_with_sides(Scene scene, const SceneSettings& settings, const SolveOptions& options,
                             Verbosity verbosity) {
-    TerminalWatcher watcher(verbosity);
+    ProgramWatcher watcher(verbosity);
     return as_of_file(settings, [&] {
         MeshOptions mesh = settings.mesh;
         mesh.threads = options.threads;

@@ -69,11 +69,6 @@ std::uint32_t row_count(const FactorTable& table) {
     return static_cast<std::uint32_t>(table.rows());
 }
 
-void add(std::string& line, double value) {
-    line += ',';
-    csv::append_number(line, value);
-}
-
 template <class Values>
 void add_array(StoredZip& zip, const std::string& name, const std::string& type,
                const Values& values) {
@@ -149,10 +144,9 @@ void write_factor_pairs(const std::string& path, const FactorTable& table) {
                 [&](std::uint32_t row, std::uint32_t column, double factor, double error) {
                     line.clear();
                     csv::append_number(line, std::uint64_t{row});
-                    line += ',';
-                    csv::append_number(line, std::uint64_t{column});
-                    add(line, factor);
-                    add(line, error);
+                    csv::append_field(line, std::uint64_t{column});
+                    csv::append_field(line, factor);
+                    csv::append_field(line, error);
                     file.write(line + '\n');
                 });
     }

@@ -104,10 +104,10 @@ void go_on(Run& run, const StopRule& stop, RunWatcher& watcher) {
         run.before = {record.step, record.seconds};
         watcher.step_done(record, solution);
     };
-    StopRule rule = stop;
-    rule.useful = [&](const Solution& solution) { return watcher.is_useful(solution); };
+    const auto useful = [&](const Solution& solution) { return watcher.is_useful(solution); };
     try {
-        run.completed = hemilux::run(*run.solver, run.input(), rule, after_step, run.before);
+        run.completed =
+            hemilux::run(*run.solver, run.input(), stop, after_step, run.before, useful);
     } catch (...) {
         count();
         throw;
