@@ -2,7 +2,6 @@
 
 #include "app/commands/commands.h"
 #include "app/loading/load_geometry.h"
-#include "app/running/run_notes.h"
 #include "app/running/signals.h"
 #include "app/running/write_report.h"
 #include "app/settings/exit_code.h"
@@ -14,6 +13,7 @@
 #include "bvh/wide/wide_bvh.h"
 #include "io/results/factor_files.h"
 #include "radiosity/answers/asked/text.h"
+#include "radiosity/answers/run/run_findings.h"
 #include "radiosity/engine/factors/points/hemicube.h"
 #include "radiosity/engine/form_factors/exact_form_factors.h"
 #include "radiosity/engine/form_factors/factor_options.h"
@@ -85,7 +85,7 @@ std::optional<Factors> by_hemicubes(const FormFactorSettings& settings, const Me
     if (monitor.interrupted)
         return std::nullopt;
     log_rays(settings.verbosity, mesh.patches().size(), factors.rays);
-    log_line(settings.verbosity, Verbosity::normal, hemicube_note);
+    log_line(settings.verbosity, Verbosity::normal, hemicube_finding().with_advice());
     const MatrixQuality quality = assess_matrix(factors.matrix, mesh, factors.lost);
     return Factors{std::move(factors.matrix), quality};
 }

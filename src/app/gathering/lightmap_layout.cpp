@@ -8,7 +8,6 @@
 #include "bvh/tracer.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
-#include "io/files/text_words.h"
 #include "io/scene_files/obj_places.h"
 #include "radiosity/answers/asked/text.h"
 #include "radiosity/answers/charts/charts.h"

@@ -1,4 +1,4 @@
-#include "app/running/unknown_groups.h"
+#include "radiosity/answers/run/unknown_groups.h"
 
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/solution.h"
@@ -21,10 +21,10 @@ struct OfGroup {
 
 } // namespace
 
-std::string unknown_groups_text(const Mesh& mesh, const Solution& solution) {
+std::optional<Finding> unknown_groups_finding(const Mesh& mesh, const Solution& solution) {
     const auto& names = mesh.scene().groups;
     if (names.size() < 2 || solution.steps < 2 || !solution.weight.empty())
-        return "";
+        return {};
     std::vector<OfGroup> groups(names.size());
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
         const Patch& patch = mesh.patches()[i];
@@ -39,14 +39,15 @@ std::string unknown_groups_text(const Mesh& mesh, const Solution& solution) {
         if (groups[g].variance > unknown * unknown * groups[g].light)
             found.push_back(names[g]);
     if (found.empty())
-        return "";
+        return {};
     std::string text = "the light of ";
     for (std::size_t k = 0; k < std::min(found.size(), max_named); ++k)
         text += (k > 0 ? ", " : "") + found[k];
     if (found.size() > max_named)
         text += " and " + std::to_string(found.size() - max_named) + " other groups";
-    return text + " is not known: its standard error is more than a quarter of it; --for group:" +
-           found.front() + " finds it";
+    return Finding{Finding::Kind::warning,
+                   text + " is not known: its standard error is more than a quarter of it",
+                   "--for group:" + found.front() + " finds it"};
 }
 
 } // namespace hemilux

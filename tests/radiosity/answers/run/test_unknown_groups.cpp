@@ -1,5 +1,5 @@
 // A warning names the groups whose light a run does not know.
-#include "app/running/unknown_groups.h"
+#include "radiosity/answers/run/unknown_groups.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/solution.h"
 #include "support/catch.h"
@@ -20,7 +20,7 @@ TEST_CASE("groups are named whose error is more than a quarter of their light") 
     solution.steps = 2;
     solution.radiosity.assign(mesh.patches().size(), Vec3(2.0)); // 1 of it reflected
     solution.standard_error.assign(mesh.patches().size(), Vec3(.01));
-    CHECK(unknown_groups_text(mesh, solution).empty());
+    CHECK_FALSE(unknown_groups_finding(mesh, solution));
     const auto set = [&](std::uint32_t group, double reflected, double sigma) {
         for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
             if (mesh.scene().facets[mesh.patches()[i].facet].group == group) {
@@ -29,12 +29,12 @@ TEST_CASE("groups are named whose error is more than a quarter of their light") 
             }
     };
     set(1, .04, .02);
-    CHECK_THAT(unknown_groups_text(mesh, solution),
+    CHECK_THAT(unknown_groups_finding(mesh, solution).value().with_advice(),
                Contains("light of attic is not known") && Contains("--for group:attic"));
     set(2, 0, .001); // none was found, but there may be some
-    CHECK_THAT(unknown_groups_text(mesh, solution), Contains("attic, cellar"));
+    CHECK_THAT(unknown_groups_finding(mesh, solution).value().text, Contains("attic, cellar"));
     set(2, 0, 0); // none can be there
-    CHECK_THAT(unknown_groups_text(mesh, solution), !Contains("cellar"));
+    CHECK_THAT(unknown_groups_finding(mesh, solution).value().text, !Contains("cellar"));
     solution.steps = 1;
-    CHECK(unknown_groups_text(mesh, solution).empty());
+    CHECK_FALSE(unknown_groups_finding(mesh, solution));
 }

@@ -1,20 +1,14 @@
-#include "app/division/auto_division.h"
+#include "radiosity/answers/division/division.h"
 
-#include "app/division/default_division.h"
-#include "app/division/whole_error.h"
-#include "app/terminal/log.h"
 #include "geometry/elementary.h"
 #include "parallel/stopwatch.h"
 #include "parallel/workers.h"
 #include "radiosity/answers/asked/text.h"
 #include "radiosity/engine/solving/time_limit.h"
-#include "radiosity/light/division/adaptive_division.h"
-#include "radiosity/light/light_error/division_error.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace hemilux {
@@ -33,6 +27,26 @@ constexpr unsigned max_attempts = 8;
 /// always worth it.
 constexpr std::uint64_t min_rays_of_error = 1'600'000, rough_rays_of_error = 400'000;
 
+/// The bytes that stored transport takes for a patch, and the patch with its outputs.
+constexpr std::uint64_t bytes_of_patch = 16'384;
+
+AdaptiveDivision options_of(const RunChoices& run, const DivisionChoices& choices,
+                            std::size_t patches) {
+    AdaptiveDivision options{.error = share_of_division * choices.error,
+                             .max_patches = choices.max_patches,
+                             .seed = run.options.seed,
+                             .threads = run.options.threads,
+                             .keep_all = run.options.keep_all};
+    if (run.stop.rays)
+        options.max_rays = *run.stop.rays;
+    if (run.memory.limit) {
+        options.memory = *run.memory.limit / 2;
+        options.max_patches = std::clamp<std::size_t>(*run.memory.limit / bytes_of_patch, patches,
+                                                      std::max(patches, options.max_patches));
+    }
+    return options;
+}
+
 std::string round_text(const DivisionRound& round) {
     return "division: " + counted(round.patches, "patch", "patches") + ", within them the light " +
            "differs by about " + percent(round.error);
@@ -41,12 +55,14 @@ std::string round_text(const DivisionRound& round) {
 /// Divides the mesh for a run to come.
 class AutoDivision {
   public:
-    AutoDivision(const SolveSettings& settings, Mesh& mesh, const SolverInput& input,
-                 const BeginSolver& begin, const MeshChanged& mesh_changed, Statistics& statistics)
-        : settings_(settings), mesh_(mesh), input_(input), begin_(begin),
-          mesh_changed_(mesh_changed), statistics_(statistics),
-          options_(division_of(settings, mesh.patches().size())), whole_(whole_error(settings)),
-          is_own_(settings.method == &method_of(Role::standard) && !settings.plain) {}
+    AutoDivision(Problem problem, const RunChoices& run, const DivisionChoices& choices,
+                 Monitor& monitor, Watcher& watcher)
+        : problem_(std::make_shared<Problem>(std::move(problem))), mesh_(*problem_->mesh),
+          choices_(run), standard_(*choices.standard), monitor_(monitor), watcher_(watcher),
+          options_(options_of(run, choices, mesh_.patches().size())), whole_(choices.error),
+          is_own_(run.method == choices.standard && !run.plain) {
+        divided_.problem = problem_;
+    }
 
     [[nodiscard]] Divided divide();
 
@@ -62,59 +78,59 @@ class AutoDivision {
     /// is left to what has the larger part.
     [[nodiscard]] bool is_enough(double sampling);
     [[nodiscard]] bool is_confirmed(double sampling, std::span<const double> square);
-    [[nodiscard]] bool is_over() const {
-        return input_.monitor.interrupted || divided_.rough.steps == 0;
-    }
+    [[nodiscard]] bool is_over() const { return monitor_.interrupted || divided_.rough.steps == 0; }
     void forget_run();
+    [[nodiscard]] DivisionWork& work() { return divided_.work; }
 
-    const SolveSettings& settings_;
+    std::shared_ptr<Problem> problem_;
     Mesh& mesh_;
-    const SolverInput& input_;
-    const BeginSolver& begin_;
-    const MeshChanged& mesh_changed_;
-    Statistics& statistics_;
+    const RunChoices& choices_;
+    const Method& standard_;
+    Monitor& monitor_;
+    Watcher& watcher_;
     AdaptiveDivision options_;
     double whole_;
     bool is_own_;
     std::uint64_t gathers_ = 0;
-    double seconds_of_errors_ = 0;
     bool divides_ = true;    ///< in the next attempt
     unsigned divisions_ = 0; ///< attempts that divided
     Divided divided_;
 };
 
 void AutoDivision::run_to(double error, const StopRule& most) {
-    if (!divided_.begun) {
-        divided_.begun = is_own_ ? begin_() : method_of(Role::standard).make(input_);
-        divided_.steps.clear();
+    if (!divided_.run && is_own_)
+        divided_.run = begin(problem_, choices_, monitor_);
+    else if (!divided_.run) {
+        SolveOptions options = choices_.options;
+        options.memory = memory_of_solver(choices_.memory);
+        divided_.run = begin(problem_, standard_, std::move(options), false, monitor_);
     }
     StopRule stop = most;
     stop.error = error;
     if (is_own_)
-        stop.steps = settings_.stop.steps;
-    run(
-        *divided_.begun, input_, stop,
-        [&](const StepRecord& record, const Solution&) { divided_.steps.push_back(record); },
-        divided_.before());
-    divided_.rough = divided_.begun->solution();
+        stop.steps = choices_.stop.steps;
+    RunWatcher nobody;
+    go_on(*divided_.run, stop, nobody);
+    divided_.rough = divided_.run->solution();
+    divided_.steps = divided_.run->steps.size();
 }
 
 void AutoDivision::forget_run() {
-    if (divided_.begun)
-        statistics_.rays_divide += divided_.begun->solution().rays_energy;
-    divided_.begun.reset();
-    divided_.steps.clear();
+    if (divided_.run)
+        work().rays += divided_.run->solution().rays_energy;
+    divided_.run.reset();
+    divided_.steps = 0;
 }
 
 void AutoDivision::measure(DivisionErrorOptions options) {
-    options.seed = hash_words({settings_.options.seed, 4, gathers_++});
+    options.seed = hash_words({choices_.options.seed, 4, gathers_++});
     const Stopwatch watch;
-    const Workers workers(settings_.options.threads);
-    const DivisionError found = division_error(mesh_, input_.tracer, divided_.rough, options,
-                                               workers, input_.monitor.interrupted);
+    const Workers workers(choices_.options.threads);
+    const DivisionError found = division_error(mesh_, *problem_->tracer, divided_.rough, options,
+                                               workers, monitor_.interrupted);
     divided_.error = found;
-    statistics_.rays_division_error += found.rays;
-    seconds_of_errors_ += watch.seconds();
+    work().rays_error += found.rays;
+    work().seconds_error += watch.seconds();
 }
 
 /// Returns whether it is enough. What is left is aimed at with some room, as what was found is
@@ -138,7 +154,7 @@ bool AutoDivision::is_enough(double sampling) {
 /// Measures the error of patches that were divided just now; others keep theirs. The first of
 /// several errors to be small enough errs low, so it is confirmed at other points.
 bool AutoDivision::is_confirmed(double sampling, std::span<const double> square) {
-    const std::uint64_t before = divided_.rough.rays_energy + statistics_.rays_divide;
+    const std::uint64_t before = divided_.rough.rays_energy + work().rays;
     const DivisionErrorOptions options{.max_rays = std::max(before, min_rays_of_error),
                                        .negligible = sampling / 2,
                                        .expected = share_of_division * whole_,
@@ -155,24 +171,23 @@ bool AutoDivision::is_confirmed(double sampling, std::span<const double> square)
 
 void AutoDivision::divide_once(Division& division) {
     if (!division.divide(divided_.rough, options_.error, [&](const DivisionRound& round) {
-            statistics_.rays_divide += round.rays;
-            log_line(settings_.verbosity, Verbosity::verbose, round_text(round));
+            work().rays += round.rays;
+            watcher_.tell(Finding::Kind::detail, round_text(round));
         }))
         return;
-    divided_.patches = true;
     forget_run(); // which refers to what changes
-    mesh_changed_();
+    problem_->find_again();
 }
 
 /// Where rays are limited, the division may take half of them.
 void AutoDivision::divide_until_enough() {
     const std::uint64_t max_rays =
-        settings_.stop.rays.value_or(default_max_rays(mesh_.patches().size()));
-    const auto spent = [&] { return statistics_.rays_divide + statistics_.rays_division_error; };
-    if (settings_.stop.rays)
+        choices_.stop.rays.value_or(default_max_rays(mesh_.patches().size()));
+    const auto spent = [&] { return work().rays + work().rays_error; };
+    if (choices_.stop.rays)
         options_.max_rays =
             max_rays / 2 - std::min(spent() + divided_.rough.rays_energy, max_rays / 2);
-    Division division(mesh_, input_.tracer, options_, input_.monitor);
+    Division division(mesh_, *problem_->tracer, options_, monitor_);
     for (unsigned attempt = 0; attempt < max_attempts; ++attempt) {
         if (divides_) {
             divide_once(division);
@@ -185,7 +200,7 @@ void AutoDivision::divide_until_enough() {
         run_to(*divided_.sampling, stop);
         if (is_over())
             break;
-        statistics_.rays_divide += division.add_slopes(divided_.rough, options_.error);
+        work().rays += division.add_slopes(divided_.rough, options_.error);
         const double sampling = estimated_error(mesh_, divided_.rough);
         const bool is_aimed_at = sampling <= *divided_.sampling; // else by rays or steps
         const bool done = is_confirmed(sampling, division.squares()) || !is_aimed_at;
@@ -211,25 +226,22 @@ Divided AutoDivision::divide() {
         forget_run();
         divided_.error.reset();
     }
-    if (divided_.begun)
+    if (divided_.run)
         divided_.rough = {}; // which has it
-    statistics_.seconds_division_error = seconds_of_errors_;
-    statistics_.seconds_divide = watch.seconds() - divided_.before().seconds - seconds_of_errors_;
+    const double seconds_run = divided_.run ? divided_.run->seconds : 0;
+    work().seconds = watch.seconds() - seconds_run - work().seconds_error;
     return std::move(divided_);
 }
 
 } // namespace
 
-Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, const SolverInput& input,
-                        const BeginSolver& begin, const MeshChanged& mesh_changed,
-                        Statistics& statistics) {
-    if (!settings.divide_auto)
-        return {};
+Divided divide(Problem problem, const RunChoices& run, const DivisionChoices& choices,
+               Monitor& monitor, Watcher& watcher) {
     std::optional<double> seconds;
-    if (settings.stop.seconds)
-        seconds = share_of_time * *settings.stop.seconds;
-    const TimeLimit limit(input.monitor.interrupted, seconds);
-    return AutoDivision(settings, mesh, input, begin, mesh_changed, statistics).divide();
+    if (run.stop.seconds)
+        seconds = share_of_time * *run.stop.seconds;
+    const TimeLimit limit(monitor.interrupted, seconds);
+    return AutoDivision(std::move(problem), run, choices, monitor, watcher).divide();
 }
 
 } // namespace hemilux

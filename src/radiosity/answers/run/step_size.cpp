@@ -1,6 +1,5 @@
-#include "app/running/step_size.h"
+#include "radiosity/answers/run/step_size.h"
 
-#include "app/terminal/log.h"
 #include "radiosity/answers/asked/text.h"
 
 #include <algorithm>
@@ -23,13 +22,14 @@ double rays_of_step(double rays, std::optional<double> seconds, const Method& me
     return std::min(rays, most);
 }
 
-void log_rays_of_step(Verbosity verbosity, double rays, double rays_of_step) {
-    if (rays_of_step < rays)
-        log_line(
-            verbosity, Verbosity::normal,
-            formatted("warning: a step takes %.4g rays per patch instead of %.4g, so that the time "
-                      "is enough for some steps",
-                      rays_of_step, rays));
+std::optional<Finding> smaller_step_finding(double asked, double taken) {
+    if (taken >= asked)
+        return {};
+    return Finding{
+        Finding::Kind::warning,
+        formatted("a step takes %.4g rays per patch instead of %.4g, so that the time is enough "
+                  "for some steps",
+                  taken, asked)};
 }
 
 } // namespace hemilux

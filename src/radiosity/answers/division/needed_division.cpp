@@ -1,7 +1,7 @@
-#include "app/division/needed_division.h"
+#include "radiosity/answers/division/needed_division.h"
 
-#include "app/division/default_division.h"
 #include "parallel/workers.h"
+#include "radiosity/answers/division/division.h"
 #include "radiosity/engine/solving/time_limit.h"
 #include "radiosity/light/division/adaptive_division.h"
 #include "radiosity/light/light_error/division_error.h"
