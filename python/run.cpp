@@ -7,7 +7,7 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
-#include "app/terminal/stopwatch.h"
+#include "parallel/stopwatch.h"
 #include "radiosity/engine/emitters/lit_by_points.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/method_option.h"

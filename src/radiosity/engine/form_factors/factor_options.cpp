@@ -1,7 +1,7 @@
 #include "radiosity/engine/form_factors/factor_options.h"
 
+#include "radiosity/engine/factors/points/hemicube.h"
 #include "radiosity/engine/form_factors/exact_form_factors.h"
-#include "radiosity/engine/form_factors/hemicube.h"
 #include "radiosity/engine/solving/method_option.h"
 #include "radiosity/engine/solving/own_options.h"
 

@@ -1,7 +1,7 @@
 #include "radiosity/engine/linear/hemicube_matrix.h"
 
+#include "radiosity/engine/factors/points/hemicube.h"
 #include "radiosity/engine/form_factors/factor_options.h"
-#include "radiosity/engine/form_factors/hemicube.h"
 #include "radiosity/engine/linear/radiosity_system.h"
 #include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/engine/solving/own_options.h"

@@ -1,8 +1,8 @@
 #include "radiosity/engine/progressive/progressive_pass.h"
 
 #include "geometry/elementary.h"
+#include "radiosity/engine/factors/pairs/pair_factor.h"
 #include "radiosity/engine/form_factors/factor_options.h"
-#include "radiosity/engine/form_factors/pair_factor.h"
 #include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"

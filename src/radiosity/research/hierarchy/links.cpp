@@ -1,8 +1,8 @@
 #include "radiosity/research/hierarchy/links.h"
 
 #include "geometry/polygon_sampler.h"
-#include "radiosity/engine/form_factors/pair_factor.h"
-#include "radiosity/engine/form_factors/point_to_patch.h"
+#include "radiosity/engine/factors/pairs/pair_factor.h"
+#include "radiosity/engine/factors/pairs/point_to_patch.h"
 #include "radiosity/engine/rays/receivers.h"
 #include "radiosity/engine/rays/shadow_rays.h"
 #include "radiosity/engine/sampling/sobol.h"

@@ -1,7 +1,7 @@
 // What is left out changes nothing: the same solution with all that is not needed and without it.
 #include "parallel/workers.h"
 #include "radiosity/engine/densities/density.h"
-#include "radiosity/engine/form_factors/point_to_patch.h"
+#include "radiosity/engine/factors/pairs/point_to_patch.h"
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/needs/lit_facets.h"

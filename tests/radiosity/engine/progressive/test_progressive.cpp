@@ -1,5 +1,5 @@
 // Progressive radiosity against the matrix, its energy, and its options.
-#include "radiosity/engine/form_factors/pair_factor.h"
+#include "radiosity/engine/factors/pairs/pair_factor.h"
 #include "radiosity/engine/progressive/progressive_pass.h"
 #include "radiosity/engine/solving/one_shot.h"
 #include "radiosity/engine/solving/own_options.h"
