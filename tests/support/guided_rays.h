@@ -57,7 +57,7 @@ template <class Make>
     const RaysToOneSide tracer(mesh.soup());
     const SolveOptions options{.rays = 400, .threads = 1};
     Monitor monitor;
-    const std::unique_ptr<Solver> solver = make(SolverInput{mesh, tracer, options, monitor});
+    const auto solver = make(SolverInput{mesh, tracer, options, monitor});
     (void)solver->step();
     return tracer.open_share();
 }

@@ -20,7 +20,7 @@ lost.</p>
 the sphere in place of their projection. Watch the power at the rim, and go on to the next chapter.</p>`,
   source: {
     section: "5b", sentence: "A number of rays proportional to the average value of its density are shot in each spherical triangle of the hemisphere.",
-    pages: ["src/radiosity/paper/pages/section_5_hemisphere.cpp", "src/radiosity/paper/pages/share_line.h"],
+    pages: ["src/radiosity/paper/pages/section_5_hemisphere.cpp"],
   },
   state: { patch: 18, triangle: 0, rays: 64, rules: "corrected", threshold: 0, eye: "-0.35,0.3" },
   figure(f) {

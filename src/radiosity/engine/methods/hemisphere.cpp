@@ -80,7 +80,7 @@ class HemisphereStrategy final : public Strategy {
             input.needs, options.keep_all ? DensityStore::everything : DensityStore::divided_only);
     }
 
-    /// In a scene of at most so many cells, what is allocated is kept, 440 bytes per patch. Patches
+    /// In a scene of at most so many cells, what is allocated is kept, 690 bytes per patch. Patches
     /// shoot few rays at a time there, and walking their trees each time takes 1.3 times the
     /// instructions of a step (room_1002). Large scenes need only the bytes.
     static constexpr std::size_t max_kept_cells = 2'000'000;

@@ -1,4 +1,5 @@
 // What the least density is for: where a crowd is seen on one side, the other still gets rays.
+#include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/engine/solving/method.h"
 #include "support/catch.h"
 #include "support/guided_rays.h"

@@ -135,7 +135,7 @@ TEST_CASE("Every page ends a run at once where nothing reflects") {
         if (!one->plain || one == &method("stored-transport"))
             continue;
         CAPTURE(one->name);
-        const auto solver = one->plain(input), engine = one->make(input);
+        const std::unique_ptr<Solver> solver = one->plain(input), engine = one->make(input);
         run(*solver, input, test::steps(3));
         run(*engine, input, test::steps(3));
         CHECK(solver->solution().steps == 1);

@@ -1,5 +1,6 @@
 // The pages of sections 2 and 3.1, which find form factors, and what the page of section 5 has of
 // its own: all on the paper's storey alone.
+#include "radiosity/paper/pages/step.h"
 #include "support/catch.h"
 #include "support/paper_solve.h"
 #include "support/scenes.h"
@@ -31,7 +32,7 @@ Solution solve(const PaperModel& model, const test::Page& page, const SolveOptio
     const auto solver = page.make({model.mesh, model.bvh, options, monitor});
     do
         REQUIRE(solver->step());
-    while (page.make == plain::progressive && !solver->finished());
+    while (page.make == progressive.make && !solver->finished());
     return solver->solution();
 }
 
