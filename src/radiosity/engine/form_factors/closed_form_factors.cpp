@@ -36,6 +36,17 @@ std::optional<double> ClosedFormFactors::factor(std::uint32_t i, std::uint32_t j
                            : std::nullopt;
 }
 
+std::vector<double> ClosedFormFactors::free_light(std::span<const double> leaving) const {
+    const auto patches = mesh_.patches();
+    std::vector<double> arriving(leaving.size());
+    for (std::size_t i = 0; i < leaving.size(); ++i)
+        for (const FreePair& pair : pairs_.rows[i]) {
+            arriving[i] += pair.exchange * leaving[pair.to] / patches[i].area;
+            arriving[pair.to] += pair.exchange * leaving[i] / patches[pair.to].area;
+        }
+    return arriving;
+}
+
 std::optional<ClosedFactors> ClosedFormFactors::batch(std::uint64_t seed, std::uint32_t rays,
                                                       const FactorTolerance& tolerance,
                                                       const Workers& workers,

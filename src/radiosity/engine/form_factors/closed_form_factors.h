@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace hemilux {
@@ -48,6 +49,9 @@ class ClosedFormFactors {
     /// Returns F_ij [-] where nothing stands between the two, 0 where they do not face each other;
     /// nothing where something may hide a part.
     [[nodiscard]] std::optional<double> factor(std::uint32_t i, std::uint32_t j) const;
+
+    /// Returns what of the light that leaves patches would arrive at each if nothing hid it.
+    [[nodiscard]] std::vector<double> free_light(std::span<const double> leaving) const;
 
     /// Estimates the others with `rays` rays from each patch, a power of two and min_rays at least,
     /// and closes the rows. Returns nothing if the monitor was interrupted. The same seed gives the

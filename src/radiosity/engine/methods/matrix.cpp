@@ -49,7 +49,9 @@ constexpr double bytes_per_exact_factor = 48;
 constexpr std::size_t batches = 8;
 /// The standard error of exact factors that may be hidden in part, times the rays: so both sorts of
 /// errors fall from step to step, and the first is about what is asked for by default.
-constexpr double error_by_rays = .5;
+constexpr double error_by_rays = .25;
+/// What the quadrature of exact factors may move the light by at most [-].
+constexpr double error_of_exact = 1e-9;
 /// The rays per patch and batch at which the run ends whatever the error.
 constexpr std::uint32_t max_rays = 1u << 20;
 
@@ -173,6 +175,7 @@ class MatrixSolver final : public Solver {
             [&](auto x, auto y) { factors->matrix.multiply(x, y, workers_); },
             {surfaces_.area, surfaces_.emission, surfaces_.reflectance, factors->lost, rays},
             input_, radiosity);
+        batch.unsolved = std::max(batch.unsolved, error_of_exact);
         if (factors->unclosed > 0) {
             double most = 0;
             for (const Vec3& rho : surfaces_.reflectance)
@@ -183,23 +186,29 @@ class MatrixSolver final : public Solver {
     }
 
     /// Returns the standard error that factors between patches may have in a batch: less the
-    /// brighter one of them is, compared with the mean light. No patch counts as darker than half
-    /// of that.
+    /// brighter one of them is, compared with the light that would arrive if nothing hid the
+    /// emitters, as a mean over this light. No patch counts as darker than half of that.
     [[nodiscard]] FactorTolerance tolerance_of_light() const {
-        const std::size_t n = solution_.radiosity.size();
-        std::vector<double> light(n);
-        double power = 0, area = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            light[i] = mean_of_channels(solution_.radiosity[i]);
-            power += surfaces_.area[i] * light[i];
-            area += surfaces_.area[i];
+        const double of_mean = error_by_rays / rays_of_step_;
+        std::vector<double> light(solution_.radiosity.size());
+        for (std::size_t i = 0; i < light.size() && exact_; ++i)
+            light[i] = mean_of_channels(surfaces_.emission[i]);
+        double power = 0, squares = 0;
+        if (exact_) {
+            const std::vector<double> arriving = exact_->free_light(light);
+            for (std::size_t i = 0; i < light.size(); ++i) {
+                power += surfaces_.area[i] * arriving[i];
+                squares += surfaces_.area[i] * arriving[i] * arriving[i];
+            }
         }
-        const double mean = power / area, of_mean = error_by_rays / rays_of_step_;
-        double most = mean;
-        for (double& value : light)
-            most = std::max(most, value = std::max(value, .5 * mean));
-        if (!(mean > 0))
+        if (!(power > 0))
             return {of_mean, [of_mean](std::uint32_t, std::uint32_t, double) { return of_mean; }};
+        const double mean = squares / power;
+        double most = mean;
+        for (std::size_t i = 0; i < light.size(); ++i) {
+            light[i] = std::max(mean_of_channels(solution_.radiosity[i]), .5 * mean);
+            most = std::max(most, light[i]);
+        }
         return {of_mean * mean / most, [light = std::move(light), whole = of_mean * mean](
                                            std::uint32_t i, std::uint32_t j, double) {
                     return whole / std::max(light[i], light[j]);
