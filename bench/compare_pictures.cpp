@@ -3,8 +3,8 @@
 //     compare_pictures A.png B.png [LEFT,TOP,WIDTH,HEIGHT]
 //
 // Prints the index, of the whole or of a part in pixels.
-#include "io/pictures/ssim.h"
 #include "io/png_reader.h"
+#include "radiosity/answers/images/ssim.h"
 
 #include <array>
 #include <cstdio>

@@ -327,14 +327,12 @@ void add_options(Command command, Settings& settings) {
         .add_texts("--error", "X,...", settings.asked,
                    "whole errors asked for, one after the other [0.05]")
         .separated_by(',');
-    add_whole<std::size_t>(command, "--seeds", settings.seeds, 1, 1000, "runs of each [10]");
-    add_whole<std::size_t>(command, "--points", settings.points, 100, 10'000'000,
-                           "of the truth [10000]");
-    add_whole<std::size_t>(command, "--paths", settings.paths, 1, 100'000,
-                           "at each point, twice [256]");
+    add_whole(command, "--seeds", settings.seeds, 1, 1000, "runs of each [10]");
+    add_whole(command, "--points", settings.points, 100, 10'000'000, "of the truth [10000]");
+    add_whole(command, "--paths", settings.paths, 1, 100'000, "at each point, twice [256]");
     add_number(command, "--divide", "LENGTH", settings.max_edge, positive,
                "patches of one size instead of --divide auto");
-    add_whole<unsigned>(command, "--threads", settings.threads, 0, 1024, "0: all cores");
+    add_whole(command, "--threads", settings.threads, 0, 1024, "0: all cores");
     command.add_texts("--for", "GROUP,...", settings.groups, "groups that are the target")
         .separated_by(',');
     add_camera_options(command, settings.view);

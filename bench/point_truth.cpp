@@ -74,9 +74,8 @@ int main(int count, char** words) {
         command.add_text("--scene", "FILE", settings.scene, "scene");
         command.add_text("--points-output", "FILE", settings.points_output,
                          "table of the points, as for solve --points");
-        add_whole<std::size_t>(command, "--points", settings.points, 1, 10'000'000, "points");
-        add_whole<std::size_t>(command, "--paths", settings.paths, 1, 1'000'000,
-                               "at each point, twice");
+        add_whole(command, "--points", settings.points, 1, 10'000'000, "points");
+        add_whole(command, "--paths", settings.paths, 1, 1'000'000, "at each point, twice");
         const std::string help = arguments.parse({words + 1, words + count});
         std::fputs(help.c_str(), stdout);
         if (help.empty())

@@ -92,7 +92,7 @@ void judge_scene(const HardSceneEntry& entry, const Settings& settings) {
 
 template <class Whole>
 void add_count(Command command, const std::string& name, Whole& target, const std::string& help) {
-    add_whole<Whole>(command, name, target, 0, std::numeric_limits<Whole>::max(), help);
+    add_whole(command, name, target, 0, std::numeric_limits<Whole>::max(), help);
 }
 
 void add_options(Command command, Settings& settings) {

@@ -11,9 +11,11 @@
 // the details.
 #include "bvh/wide/wide_bvh.h"
 #include "clock.h"
-#include "io/pictures/ssim.h"
-#include "io/rendering/render.h"
+#include "io/pictures/picture_files.h"
 #include "io/scene_files/obj.h"
+#include "radiosity/answers/images/ssim.h"
+#include "radiosity/answers/images/tone.h"
+#include "radiosity/answers/pictures/render.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/run.h"
 #include "radiosity/light/layers/layered_mesh.h"

@@ -5,6 +5,7 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hemilux)
 set(header_folders_of_paper src/geometry src/bvh src/radiosity/paper)
 set(header_folders_of_engine src/bvh/wide src/parallel src/radiosity/engine)
 set(header_folders_of_light src/radiosity/light)
+set(header_folders_of_answers src/radiosity/answers)
 set(header_folders_of_research src/radiosity/research)
 set(except_of_paper PATTERN wide EXCLUDE)
 foreach(storey IN LISTS storeys)
@@ -26,8 +27,7 @@ if(TARGET hemilux_io)
   install(TARGETS hemilux_io EXPORT hemilux_io COMPONENT io)
   install(EXPORT hemilux_io NAMESPACE hemilux:: DESTINATION ${package_folder} COMPONENT io)
   install(DIRECTORY src/io DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hemilux COMPONENT io
-          FILES_MATCHING PATTERN "*.h" PATTERN gltf EXCLUDE PATTERN scene_info_json.h EXCLUDE
-          PATTERN glb.h EXCLUDE)
+          FILES_MATCHING PATTERN "*.h")
 endif()
 configure_package_config_file(cmake/hemiluxConfig.cmake.in ${PROJECT_BINARY_DIR}/hemiluxConfig.cmake
                               INSTALL_DESTINATION ${package_folder})

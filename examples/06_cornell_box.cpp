@@ -6,8 +6,8 @@
 // Prints: the estimated error after each step that doubles the rays, at last where the picture is.
 
 #include "bvh/wide/wide_bvh.h"
-#include "io/rendering/render.h"
 #include "io/scene_files/obj.h"
+#include "radiosity/answers/pictures/render.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/run.h"
 #include "radiosity/paper/scene/mesh.h"

@@ -8,8 +8,8 @@
 // and its memory, as a table in Markdown. FOLDER gets the pictures.
 
 #include "bvh/wide/wide_bvh.h"
-#include "io/rendering/render.h"
 #include "io/scene_files/obj.h"
+#include "radiosity/answers/pictures/render.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/run.h"
 #include "radiosity/paper/scene/mesh.h"

@@ -9,9 +9,9 @@
 // Ends with 0, with 1 for wrong arguments, with 2 for input that cannot be solved.
 
 #include "bvh/wide/wide_bvh.h"
-#include "io/rendering/render.h"
 #include "io/results/tables.h"
 #include "io/scene_files/obj.h"
+#include "radiosity/answers/pictures/render.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/run.h"
 #include "radiosity/paper/scene/mesh.h"

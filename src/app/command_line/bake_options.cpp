@@ -128,16 +128,16 @@ void add_place_options(Command command, SolveSettings& settings) {
                    bake.new_set = !choice.set;
                });
     const Option size =
-        add_whole<int>(command, "--lightmap", settings.lightmap, 16, SolveSettings::max_lightmap,
-                       "texels along a side [by the faces and their area, 128 to 2048]");
+        add_whole(command, "--lightmap", settings.lightmap, 16, SolveSettings::max_lightmap,
+                  "texels along a side [by the faces and their area, 128 to 2048]");
     add_number(command, "--texels-per-metre", "X", bake.texels_per_metre, positive,
                "as many texels as that needs, in an atlas of our own")
         .excludes(size);
     command.add_flag("--per-object", bake.per_object,
                      "a lightmap for each object, FILE.NAME.lightmap.exr: the largest has "
                      "--lightmap texels along a side, others are as dense");
-    add_whole<int>(command, "--margin", bake.margin, 1, FileBakeSettings::max_margin,
-                   "texels around charts that have their light, too [2]");
+    add_whole(command, "--margin", bake.margin, 1, FileBakeSettings::max_margin,
+              "texels around charts that have their light, too [2]");
 }
 
 } // namespace
@@ -165,9 +165,9 @@ Command add_bake_command(Arguments& program, SolveSettings& settings) {
     outputs.add_text("--stats", "FILE", settings.statistics, "statistics of the run as JSON");
     add_light_options(outputs, settings, given);
     add_place_options(outputs, settings);
-    add_whole<unsigned>(outputs, "--gather", settings.gather, 1, SolveSettings::max_gather,
-                        "rays that gather light at a texel, more at edges [16, or as many as "
-                        "--error needs]");
+    add_whole(outputs, "--gather", settings.gather, 1, SolveSettings::max_gather,
+              "rays that gather light at a texel, more at edges [16, or as many as "
+              "--error needs]");
     add_layers_option(outputs, settings.layers);
     add_exposure_options(outputs, settings.view);
     add_verbosity_options(command, settings.verbosity);

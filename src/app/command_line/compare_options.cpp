@@ -8,6 +8,7 @@
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
 #include "io/files/text_words.h"
+#include "radiosity/engine/solving/method_option.h"
 
 #include <algorithm>
 #include <array>
@@ -139,8 +140,8 @@ void add_budget_options(Command command, CompareSettings& settings) {
                   "at equal error");
     error.excludes(rays);
     error.excludes(time);
-    add_whole<std::uint32_t>(command, "--runs", settings.runs, 1, 1000,
-                             "runs of each method, with seeds that follow each other [3]");
+    add_whole(command, "--runs", settings.runs, 1, 1000,
+              "runs of each method, with seeds that follow each other [3]");
 }
 
 void add_reference_options(Command command, CompareSettings& settings) {

@@ -3,6 +3,7 @@
 #include "app/command_line/options.h"
 #include "app/settings/names.h"
 #include "radiosity/engine/shooting/additions.h"
+#include "radiosity/engine/solving/own_options.h"
 
 #include <algorithm>
 #include <array>
@@ -30,11 +31,12 @@ void add_dividing_guide(Command command, SolveOptions& options) {
         return;
     command.add_value(
         "--guide", joined(names, "|"), "what divides hemisphere's [density]",
-        [names, &guide = options.own.of<GuideChoice>().guide](const std::string& text) {
+        [names, &options](const std::string& text) {
             if (std::ranges::find(names, text) == names.end())
                 throw UsageError("--guide: " + unknown_name("choice", text, names));
             const auto found = std::ranges::find(additions().guides, text, &Guide::name);
-            guide = found == additions().guides.end() ? nullptr : *found;
+            const bool is_added = found != additions().guides.end();
+            set_own_options(options, GuideChoice{.guide = is_added ? *found : nullptr});
         });
 }
 
@@ -71,17 +73,13 @@ Command add_density_command(Arguments& program, DensitySettings& settings) {
     add_random_options(method, settings.options);
     add_path(outputs, "-o,--output", "FILE",
              "a patch's hemisphere .svg, mean densities of all patches .png; repeatable",
-             ".svg or .png",
-             [&settings](const std::string& path) { settings.outputs.push_back(path); })
-        .repeatable()
+             ".svg or .png", settings.outputs)
         .required();
-    add_whole<std::uint32_t>(outputs, "--patch", settings.patch, 0,
-                             std::numeric_limits<std::uint32_t>::max(),
-                             "whose hemisphere; from 0 [the one with the largest spread]");
-    add_whole<std::uint32_t>(outputs, "--part", settings.part, 0, 63,
-                             "of the patch, whose hemisphere is shown from above [0]");
-    add_whole<std::uint32_t>(outputs, "--rays", settings.rays, 0, 100'000,
-                             "energy rays to show in it [0]");
+    add_whole(outputs, "--patch", settings.patch, 0, std::numeric_limits<std::uint32_t>::max(),
+              "whose hemisphere; from 0 [the one with the largest spread]");
+    add_whole(outputs, "--part", settings.part, 0, 63,
+              "of the patch, whose hemisphere is shown from above [0]");
+    add_whole(outputs, "--rays", settings.rays, 0, 100'000, "energy rays to show in it [0]");
     outputs.add_flag("--plane", settings.plane,
                      "draw the subdivision in a plane across the patch, as the paper's figure 1");
     add_camera_options(outputs, settings.view);

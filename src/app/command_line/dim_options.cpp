@@ -38,18 +38,14 @@ Command add_dim_command(Arguments& program, DimSettings& settings) {
         "letters; the last that names a lamp counts; repeatable",
         "LAMP=FACTOR or LAMP=R,G,B with factors of 0 or more",
         [](const std::string& text) { return parse_override(text, non_negative); },
-        [&settings](const Override& power) { settings.powers.push_back(power); })
-        .repeatable();
+        settings.powers);
     command.add_text("--wish", "FILE.csv", settings.wishes,
                      "find the powers that bring points of a table of --points-output nearest to "
                      "wished irradiances: rows point,wish or point,r,g,b; prints them");
     add_parsed(
         outputs, "-o,--output", "FILE",
         "the light by these powers: .csv of a table; .exr, .hdr or .png of a picture; repeatable",
-        "a file name that ends with .csv, .exr, .hdr or .png",
-        [](const std::string& path) { return parse_output(path); },
-        [&settings](const Output& value) { settings.outputs.push_back(value); })
-        .repeatable();
+        "a file name that ends with .csv, .exr, .hdr or .png", parse_output, settings.outputs);
     add_exposure_options(outputs, settings.view);
     add_verbosity_options(command, settings.verbosity);
     command.call_often_used(std::to_array({"--output", "--power", "--wish"}));

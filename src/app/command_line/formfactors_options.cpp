@@ -32,16 +32,13 @@ Command add_formfactors_command(Arguments& program, FormFactorSettings& settings
     add_scene_options(command, settings.scene);
     add_memory_option(command.under(scene_group), settings.scene);
     add_parsed(method, "--rays", "N", "rays per patch, a power of two [4096]",
-               "a power of two from 1 to 1048576", power_of_two,
-               [&settings](std::uint32_t rays) { settings.rays = rays; });
+               "a power of two from 1 to 1048576", power_of_two, settings.rays);
     const Method* const same = &method_of(Role::reference);
     add_own_options(method, {&same, 1}, settings.options);
     add_random_options(method, settings.options);
     add_path(command.under(output_group), "-o,--output", "FILE",
              "i,j,F of the factors above 0 .csv, dense NumPy array .npy; repeatable",
-             ".csv or .npy",
-             [&settings](const std::string& path) { settings.outputs.push_back(path); })
-        .repeatable()
+             ".csv or .npy", settings.outputs)
         .required();
     add_verbosity_options(command, settings.verbosity);
     command.in_family(factor_family);

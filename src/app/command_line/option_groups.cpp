@@ -1,9 +1,12 @@
 #include "app/command_line/option_groups.h"
+#include "app/settings/camera_text.h"
+#include "radiosity/answers/images/tone.h"
 
 #include "app/command_line/option_kinds.h"
 #include "app/memory/memory.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
+#include "radiosity/engine/solving/method_option.h"
 
 #include <algorithm>
 #include <limits>
@@ -19,9 +22,7 @@ Option add_override(Command command, const std::string& name, std::vector<Overri
                     const NumberRange& range, const std::string& help) {
     const auto parse = [range](const std::string& text) { return parse_override(text, range); };
     return add_parsed(command, name, "MATERIAL=R,G,B", help,
-                      "MATERIAL=R,G,B or MATERIAL=GREY with numbers " + range.text(), parse,
-                      [&list](const Override& value) { list.push_back(value); })
-        .repeatable();
+                      "MATERIAL=R,G,B or MATERIAL=GREY with numbers " + range.text(), parse, list);
 }
 
 /// A camera, or none for `auto`, and whether it says what is upwards.
@@ -65,22 +66,16 @@ void add_light_options(Command command, SceneSettings& scene) {
         "add a lamp: 'disc at 0,2.4,0 towards 0,-1,0 radius 0.2 watts 60', 'rectangle at P towards "
         "D size 1x0.5 emission 20', 'point at P watts 60', 'spot at P towards D inner 20 outer 30 "
         "intensity 9', 'ies FILE at P towards D'; repeatable",
-        light_form, [](const std::string& text) { return parse_light(text); },
-        [&scene](const LightSettings& light) { scene.lights.push_back(light); })
-        .repeatable();
+        light_form, parse_light, scene.lights);
     add_parsed(
         command, "--sun", "X,Y,Z,W",
         "add a sun: where its light goes, and its light on a surface that faces it, W/m2 or R,G,B; "
         "repeatable",
-        "X,Y,Z,W or X,Y,Z,R,G,B with a direction that is not 0,0,0",
-        [](const std::string& text) { return parse_sun(text); },
-        [&scene](const SunSettings& sun) { scene.suns.push_back(sun); })
-        .repeatable();
+        "X,Y,Z,W or X,Y,Z,R,G,B with a direction that is not 0,0,0", parse_sun, scene.suns);
     add_parsed(
         command, "--sky", "R,G,B", "add a sky that is alike all around, W/m2",
         "R,G,B or one number, " + emission_range.text(),
-        [](const std::string& text) { return parse_colour(text, emission_range); },
-        [&scene](const Vec3& sky) { scene.sky = sky; });
+        [](const std::string& text) { return parse_colour(text, emission_range); }, scene.sky);
 }
 
 } // namespace
@@ -131,16 +126,12 @@ void add_geometry_options(Command command, SceneSettings& scene) {
 }
 
 void add_memory_option(Command command, SceneSettings& scene) {
-    add_parsed(
-        command, "--memory", "BYTES", "stop before a scene needs more, as 800M or 2G",
-        "a number of bytes such as 800M or 1.5G",
-        [](const std::string& text) { return parse_bytes(text); },
-        [&scene](std::uint64_t bytes) { scene.memory = bytes; });
+    add_parsed(command, "--memory", "BYTES", "stop before a scene needs more, as 800M or 2G",
+               "a number of bytes such as 800M or 1.5G", parse_bytes, scene.memory);
 }
 
 void add_division_options(Command command, SolveOptions& options) {
-    add_whole<int>(command, "--depth", options.depth, 0, 5,
-                   "levels of subdivision of hemispheres [2]");
+    add_whole(command, "--depth", options.depth, 0, 5, "levels of subdivision of hemispheres [2]");
     add_number(command, "--threshold", "X", options.threshold, non_negative,
                "divide a triangle whose mean density is above X [0]");
 }
@@ -194,11 +185,10 @@ void add_own_options(Command command, std::span<const Method* const> methods,
 bool is_alias(const MethodOption& option) { return option.name == "--exact"; }
 
 void add_random_options(Command command, SolveOptions& options) {
-    add_whole<std::uint64_t>(command, "--seed", options.seed, 0,
-                             std::numeric_limits<std::uint64_t>::max(),
-                             "of the random numbers [1]");
-    add_whole<unsigned>(command, "-t,--threads", options.threads, 0, 1024,
-                        "0: one per core, with the same result [0]");
+    add_whole(command, "--seed", options.seed, 0, std::numeric_limits<std::uint64_t>::max(),
+              "of the random numbers [1]");
+    add_whole(command, "-t,--threads", options.threads, 0, 1024,
+              "0: one per core, with the same result [0]");
 }
 
 void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
@@ -229,24 +219,19 @@ void add_camera_options(Command command, ViewSettings& view) {
                               throw UsageError("--up: expected y or z, not '" + axis + "'");
                           view.up = axis == "y" ? 1 : 2;
                       });
-    add_parsed(
-        command, "--size", "WxH", "of pictures, in pixels [800x600]",
-        "a width and a height from 1 to 16384, such as 800x600",
-        [](const std::string& text) { return parse_size(text); },
-        [&view](const PixelSize& size) { view.size = size; });
+    add_parsed(command, "--size", "WxH", "of pictures, in pixels [800x600]",
+               "a width and a height from 1 to 16384, such as 800x600", parse_size, view.size);
 }
 
 void add_exposure_options(Command command, ViewSettings& view) {
-    add_parsed(
-        command, "--exposure", "X|STOPSev",
-        "factor on the light of .png pictures; as +1.5ev in stops from the automatic one "
-        "[automatic]",
-        "a number above 0, or stops from -100 to 100 such as +1.5ev",
-        [](const std::string& text) { return parse_exposure(text); },
-        [&view](const Exposure& value) {
-            view.exposure = value.factor;
-            view.stops = value.stops;
-        });
+    add_parsed(command, "--exposure", "X|STOPSev",
+               "factor on the light of .png pictures; as +1.5ev in stops from the automatic one "
+               "[automatic]",
+               "a number above 0, or stops from -100 to 100 such as +1.5ev", parse_exposure,
+               [&view](const Exposure& value) {
+                   view.exposure = value.factor;
+                   view.stops = value.stops;
+               });
     add_choice(command, "--tone", view.tone, {{Tone::neutral, "neutral"}, {Tone::srgb, "srgb"}},
                "bright light in .png pictures is compressed, with its hue; or cut at 1 [neutral]");
 }
@@ -257,8 +242,7 @@ void add_view_options(Command command, ViewSettings& view) {
 }
 
 void add_report_option(Command command, std::string& report, const char* contents) {
-    add_path(command, "--report", "FILE.html", contents, ".html",
-             [&report](const std::string& path) { report = path; });
+    add_path(command, "--report", "FILE.html", contents, ".html", report);
 }
 
 void add_verbosity_options(Command command, Verbosity& verbosity) {

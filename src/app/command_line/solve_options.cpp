@@ -18,27 +18,25 @@
 namespace hemilux {
 
 void add_stop_options(Command command, StopRule& stop) {
-    add_whole<std::uint32_t>(command, "--steps", stop.steps, 1,
-                             std::numeric_limits<std::uint32_t>::max(), "after N steps");
+    add_whole(command, "--steps", stop.steps, 1, std::numeric_limits<std::uint32_t>::max(),
+              "after N steps");
     add_seconds(command, "--time", stop.seconds, positive,
                 "after a time of solving, and as long again at --points; as 30, 2m or 1h");
     add_error(
         command, "--error", stop.error,
         "at an estimated relative error, e.g. 1% or 0.01; of pictures and --points when it is "
         "surely below this [0.02 for these]");
-    add_whole<std::uint64_t>(command, "--max-rays", stop.rays, 1,
-                             std::numeric_limits<std::uint64_t>::max(),
-                             "after N rays [1e8 and 1000 a patch]");
+    add_whole(command, "--max-rays", stop.rays, 1, std::numeric_limits<std::uint64_t>::max(),
+              "after N rays [1e8 and 1000 a patch]");
 }
 
 void add_layers_option(Command command, std::optional<LayersBy>& layers) {
-    add_choice<LayersBy>(
-        command, "--layers",
+    add_choice(
+        command, "--layers", layers,
         {{LayersBy::lamp, "lamp"}, {LayersBy::group, "group"}, {LayersBy::material, "material"}},
         "also the light of each lamp, the sun and the sky by itself, in tables, .exr pictures and "
         "--report; lamps are faces that touch, groups or materials; `hemilux dim` gives them other "
-        "powers",
-        [&layers](LayersBy by) { layers = by; });
+        "powers");
 }
 
 namespace {
@@ -95,9 +93,7 @@ void add_output_option(Command command, SolveSettings& settings) {
         command, "-o,--output", "FILE",
         "picture .png .hdr .exr, mesh .glb .ply, patches .csv .vtu, statistics .json; repeatable",
         "a file name that ends with .png, .hdr, .exr, .ply, .glb, .vtu, .csv or .json",
-        [](const std::string& path) { return parse_output(path); },
-        [&settings](const Output& value) { settings.outputs.push_back(value); })
-        .repeatable();
+        parse_output, settings.outputs);
 }
 
 void add_output_options(Command command, SolveSettings& settings) {
@@ -111,10 +107,9 @@ void add_output_options(Command command, SolveSettings& settings) {
                 {Bake::indirect, name_of(Bake::indirect)}},
                "what .glb and .ply files hold: what surfaces send; what arrives, for viewers with "
                "textures of their own; of that what was reflected before [radiosity]");
-    add_whole<int>(
-        command, "--lightmap", settings.lightmap, 16, SolveSettings::max_lightmap,
-        "beside .glb files the light as a picture NAME.lightmap.exr of N x N texels, for the "
-        "texture coordinates TEXCOORD_1");
+    add_whole(command, "--lightmap", settings.lightmap, 16, SolveSettings::max_lightmap,
+              "beside .glb files the light as a picture NAME.lightmap.exr of N x N texels, for the "
+              "texture coordinates TEXCOORD_1");
     add_choice(command, "--ply-colours", settings.ply_colours,
                {{PlyColours::linear, "linear"}, {PlyColours::shown, "shown"}},
                "colours of .ply files: the light as float; 8 bits as pictures show it [linear]");
@@ -128,7 +123,7 @@ void add_point_options(Command command, SolveSettings& settings) {
         "--max-rays they end after 50 million rays, more for many points");
     command.add_text("--points-output", "FILE", settings.points.output,
                      "CSV table of --points: irradiance, radiosity, standard error");
-    add_whole<unsigned>(
+    add_whole(
         command, "--gather", settings.gather, 1, SolveSettings::max_gather,
         "rays that gather light at a point of a picture, more at edges; at one of --points 256 "
         "times as many [16, or as many as --error needs]");
@@ -170,7 +165,7 @@ void add_target_option(Command command, TargetSettings& target) {
 void add_error_map_option(Command command, SolveSettings& settings) {
     add_path(command, "--error-map", "FILE.png",
              "picture in false colour of how far the light of each patch is off", ".png",
-             [&settings](const std::string& path) { settings.error_map = path; });
+             settings.error_map);
 }
 
 void add_comparison_options(Command command, SolveSettings& settings) {

@@ -69,21 +69,17 @@ void add_factor_options(Command command, ViewFactorSettings& settings) {
     add_seconds(method, "--time", settings.seconds, positive,
                 "end the search for better factors after this time, and report the error that was "
                 "reached; 2m and 1h are minutes and hours");
-    add_parsed(
-        method, "--of", "above:F|rows|largest|pair:A,B|sky",
-        "what it is of: factors of at least F, their root mean square; the factors of each "
-        "row together; the largest factor of each row; the factor between two surfaces "
-        "[above:0.001]",
-        "above:F with F from 1e-6 to 1, rows, largest, pair:A,B or sky",
-        [](const std::string& text) { return parse_factor_aim(text); },
-        [&settings](const FactorAim& aim) { settings.aim = aim; });
+    add_parsed(method, "--of", "above:F|rows|largest|pair:A,B|sky",
+               "what it is of: factors of at least F, their root mean square; the factors of each "
+               "row together; the largest factor of each row; the factor between two surfaces "
+               "[above:0.001]",
+               "above:F with F from 1e-6 to 1, rows, largest, pair:A,B or sky", parse_factor_aim,
+               settings.aim);
     add_parsed(method, "--rays", "N",
                "rays from each face, a power of two, that find who sees whom [1024]",
-               "a power of two from 256 to 1048576", rays_from,
-               [&settings](std::uint32_t rays) { settings.rays = rays; });
-    add_choice<int>(method, "--up", {{0, "x"}, {1, "y"}, {2, "z"}},
-                    "the axis that points to the sky [y for glTF, else z]",
-                    [&settings](int axis) { settings.up = axis; });
+               "a power of two from 256 to 1048576", rays_from, settings.rays);
+    add_choice(method, "--up", settings.up, {{0, "x"}, {1, "y"}, {2, "z"}},
+               "the axis that points to the sky [y for glTF, else z]");
     add_random_options(method, settings.options);
     add_checkpoint_options(command.under("Checkpoints"), settings.checkpoint);
 }
@@ -100,8 +96,7 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
         method, "--sky-bands", "N|tregenza",
         "divide the column of the sky into N bands of equal altitude, or into the 145 patches "
         "of Tregenza",
-        "a whole number from 1 to 90 or tregenza",
-        [](const std::string& text) { return parse_sky_division(text); },
+        "a whole number from 1 to 90 or tregenza", parse_sky_division,
         [&settings](const SkyDivision& division) {
             settings.sky_bands = division;
             settings.sky = true;
@@ -112,8 +107,7 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
                     "points with normals that get rows of their own: rows x,y,z,nx,ny,nz");
     add_parsed(method, "--sun", "X,Y,Z",
                "a sun for --sunlit: the direction in which its light goes, as for solve",
-               "three numbers X,Y,Z that are not all 0", direction_from,
-               [&settings](const Vec3& direction) { settings.sun = direction; });
+               "three numbers X,Y,Z that are not all 0", direction_from, settings.sun);
     method.add_text("--suns", "FILE", settings.suns,
                     "more suns for --sunlit: rows x,y,z of such directions");
     const Command output = command.under(output_group);
@@ -123,15 +117,14 @@ Command add_viewfactors_command(Arguments& program, ViewFactorSettings& settings
         "surfaces for ParaView .vtu; vfsparse.inp... and svf.inp... for uDALES; repeatable",
         "a file name that ends with .csv, .npz, .npy or .vtu, or begins with vfsparse.inp or "
         "svf.inp",
-        output_from, [&settings](const std::string& path) { settings.outputs.push_back(path); })
-        .repeatable();
+        output_from, settings.outputs);
     add_path(output, "--legend", "FILE",
              "a table of the rows: name, face, group, area, centre, normal, sky, sum of the row",
-             ".csv", [&settings](const std::string& path) { settings.legend = path; });
+             ".csv", settings.legend);
     add_path(output, "--sunlit", "FILE",
              "a table of the share of each surface that the sun shines on: sun, surface, sunlit, "
              "standard_error",
-             ".csv", [&settings](const std::string& path) { settings.sunlit = path; });
+             ".csv", settings.sunlit);
     add_verbosity_options(command, settings.verbosity);
     command.in_family(factor_family);
     command.call_often_used(std::to_array(
@@ -155,7 +148,7 @@ Command add_exchange_command(Arguments& program, ViewFactorSettings& settings) {
                     "what lies below the scene");
     add_path(command.under(output_group), "-o,--output", "FILE.csv",
              "a table of temperatures and heat by surface, each with its standard error", ".csv",
-             [&settings](const std::string& path) { settings.heat.output = path; })
+             settings.heat.output)
         .required();
     add_verbosity_options(command, settings.verbosity);
     command.in_family(factor_family);

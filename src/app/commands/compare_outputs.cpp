@@ -4,11 +4,13 @@
 #include "app/report/comparison_page.h"
 #include "app/report/error_charts.h"
 #include "app/settings/names.h"
-#include "app/settings/text.h"
 #include "io/drawings/false_colour.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
+#include "io/pictures/picture_files.h"
+#include "radiosity/answers/asked/text.h"
+#include "radiosity/answers/images/tone.h"
 
 #include <cerrno>
 #include <cstring>

@@ -2,7 +2,7 @@
 
 #include "app/memory/memory.h"
 #include "app/running/step_size.h"
-#include "app/terminal/stopwatch.h"
+#include "parallel/stopwatch.h"
 #include "radiosity/engine/emitters/lit_by_points.h"
 #include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/engine/solving/time_limit.h"

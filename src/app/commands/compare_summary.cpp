@@ -1,6 +1,6 @@
 #include "app/commands/compare_summary.h"
 
-#include "app/settings/text.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,11 +8,11 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
 #include "app/settings/names.h"
-#include "app/settings/text.h"
 #include "app/terminal/print.h"
 #include "io/files/error.h"
 #include "io/pictures/exr_reader.h"
 #include "io/results/csv.h"
+#include "radiosity/answers/asked/text.h"
 #include "radiosity/light/lamps/lamp_powers.h"
 
 #include <algorithm>

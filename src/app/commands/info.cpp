@@ -7,13 +7,13 @@
 #include "app/loading/sides.h"
 #include "app/memory/memory.h"
 #include "app/settings/exit_code.h"
-#include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/print.h"
 #include "app/terminal/stage.h"
 #include "app/terminal/wrap.h"
 #include "io/files/text_words.h"
 #include "io/results/scene_info_json.h"
+#include "radiosity/answers/asked/text.h"
 #include "radiosity/engine/needs/find_needs.h"
 
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "app/outputs/results.h"
 #include "app/running/run_notes.h"
 #include "app/settings/settings.h"
-#include "app/terminal/stopwatch.h"
+#include "parallel/stopwatch.h"
 
 #include <optional>
 

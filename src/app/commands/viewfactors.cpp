@@ -15,16 +15,16 @@
 #include "app/running/write_report.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/factor_aim.h"
-#include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/stage.h"
-#include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
 #include "bvh/wide/wide_bvh.h"
 #include "io/files/error.h"
 #include "io/meshes/factor_cells.h"
 #include "io/results/view_factor_files.h"
 #include "io/results/view_factor_legend.h"
+#include "parallel/stopwatch.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <algorithm>
 #include <optional>

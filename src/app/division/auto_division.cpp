@@ -2,11 +2,11 @@
 
 #include "app/division/default_division.h"
 #include "app/division/whole_error.h"
-#include "app/settings/text.h"
 #include "app/terminal/log.h"
-#include "app/terminal/stopwatch.h"
 #include "geometry/elementary.h"
+#include "parallel/stopwatch.h"
 #include "parallel/workers.h"
+#include "radiosity/answers/asked/text.h"
 #include "radiosity/engine/solving/time_limit.h"
 #include "radiosity/light/division/adaptive_division.h"
 #include "radiosity/light/light_error/division_error.h"

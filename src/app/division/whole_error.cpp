@@ -1,9 +1,9 @@
 #include "app/division/whole_error.h"
 
-#include "app/settings/text.h"
-#include "app/terminal/stopwatch.h"
 #include "geometry/elementary.h"
+#include "parallel/stopwatch.h"
 #include "parallel/workers.h"
+#include "radiosity/answers/asked/text.h"
 #include "radiosity/light/light_error/division_error.h"
 #include "radiosity/paper/sampling/rng.h"
 

@@ -1,8 +1,8 @@
 #include "app/factors/factor_audit.h"
 
-#include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/summary.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,10 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/factor_aim.h"
 #include "app/settings/numbers.h"
-#include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
+#include "radiosity/answers/asked/text.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/paper/scene/mesh.h"
 

@@ -5,8 +5,8 @@
 #include "app/factors/factor_run.h"
 #include "app/running/write_report.h"
 #include "app/settings/view_factor_settings.h"
-#include "app/terminal/stopwatch.h"
 #include "io/results/checkpoint.h"
+#include "parallel/stopwatch.h"
 
 #include <cstdint>
 #include <optional>

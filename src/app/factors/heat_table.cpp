@@ -2,7 +2,6 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/overrides.h"
-#include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
@@ -10,6 +9,7 @@
 #include "io/files/text_reader.h"
 #include "io/files/text_words.h"
 #include "io/results/csv.h"
+#include "radiosity/answers/asked/text.h"
 #include "radiosity/engine/factors/rows/row_rays.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -106,11 +106,8 @@ HeatOptions temperatures_of(const ViewFactorSettings& settings) {
 }
 
 void append(std::string& line, const HeatEstimate& estimate) {
-    for (const double value : {estimate.value, estimate.error}) {
-        line += ',';
-        if (!std::isnan(value))
-            csv::append_number(line, value);
-    }
+    csv::append_known(line, estimate.value);
+    csv::append_known(line, estimate.error);
 }
 
 /// Returns the largest share that is open in one of the ways.
@@ -191,10 +188,8 @@ void write_heat(const ViewFactorSettings& settings, const FactorSurfaces& surfac
         const double area = surfaces.rows[i].area;
         std::string line;
         csv::append_text(line, surfaces.rows[i].name);
-        for (const double value : {area, grey[i].emissivity}) {
-            line += ',';
-            csv::append_number(line, value);
-        }
+        csv::append_field(line, area);
+        csv::append_field(line, grey[i].emissivity);
         append(line, heat.temperature);
         append(line, heat.irradiation);
         append(line, heat.flux);
@@ -213,8 +208,8 @@ void write_heat(const ViewFactorSettings& settings, const FactorSurfaces& surfac
             continue;
         const HeatEstimate heat{world_area_of_unit * exchange.open[k].value,
                                 world_area_of_unit * exchange.open[k].error};
-        std::string line = std::string(name_of(open)) + ",,1,";
-        csv::append_number(line, *options.open[k]);
+        std::string line = std::string(name_of(open)) + ",,1";
+        csv::append_field(line, *options.open[k]);
         line += ",0,,,,";
         append(line, heat);
         file.write(line + "\n");

@@ -39,10 +39,9 @@ void write_rows(AtomicFile& file, std::size_t sun, std::size_t surfaces, std::si
     std::string line;
     for (std::size_t k = 0; k < fractions.size(); ++k) {
         const std::size_t row = k < surfaces ? k : first_point + (k - surfaces);
-        line = std::to_string(sun) + "," + std::to_string(row) + ",";
-        csv::append_number(line, fractions[k].factor);
-        line += ',';
-        csv::append_number(line, fractions[k].standard_error);
+        line = std::to_string(sun) + "," + std::to_string(row);
+        csv::append_field(line, fractions[k].factor);
+        csv::append_field(line, fractions[k].standard_error);
         file.write(line + "\n");
     }
 }

@@ -4,9 +4,11 @@
 #include "geometry/elementary.h"
 #include "io/files/atomic_file.h"
 #include "io/gltf/lit_file.h"
-#include "io/lightmaps/lit_picture.h"
-#include "io/lightmaps/obj_places.h"
+#include "io/pictures/picture_files.h"
+#include "io/scene_files/obj_places.h"
 #include "parallel/workers.h"
+#include "radiosity/answers/images/tone.h"
+#include "radiosity/answers/lightmaps/lit_picture.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>

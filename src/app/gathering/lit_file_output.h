@@ -3,7 +3,7 @@
 
 #include "app/gathering/lightmap_layout.h"
 #include "app/settings/settings.h"
-#include "io/pictures/image.h"
+#include "radiosity/answers/images/image.h"
 
 #include <span>
 #include <string>

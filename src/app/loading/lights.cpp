@@ -4,9 +4,9 @@
 #include "geometry/numeric.h"
 #include "io/files/error.h"
 #include "io/files/text_words.h"
-#include "io/scene_files/emitter_shapes.h"
 #include "io/scene_files/ies.h"
 #include "radiosity/engine/rays/point_emitter.h"
+#include "radiosity/light/lamps/emitter_shapes.h"
 
 #include <algorithm>
 #include <array>

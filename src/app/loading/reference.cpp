@@ -2,8 +2,8 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
-#include "app/settings/text.h"
 #include "io/files/error.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <algorithm>
 #include <cmath>

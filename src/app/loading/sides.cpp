@@ -1,11 +1,11 @@
 #include "app/loading/sides.h"
 
 #include "app/loading/load.h"
-#include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "geometry/polygon.h"
 #include "io/files/text_words.h"
 #include "io/scene_files/inspect.h"
+#include "radiosity/answers/asked/text.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/rays/point_emitter.h"
 

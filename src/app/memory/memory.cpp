@@ -1,8 +1,8 @@
 #include "app/memory/memory.h"
 
-#include "app/settings/text.h"
 #include "io/files/input_file.h"
 #include "parallel/workers.h"
+#include "radiosity/answers/asked/text.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/light/layers/coplanar_overlaps.h"
 #include "radiosity/light/textures/scene_textures.h"

@@ -3,6 +3,7 @@
 #include "app/rendering/view.h"
 #include "io/drawings/density_picture.h"
 #include "io/files/error.h"
+#include "io/pictures/picture_files.h"
 #include "parallel/workers.h"
 #include "radiosity/light/light_error/division_error.h"
 #include "radiosity/paper/sampling/rng.h"

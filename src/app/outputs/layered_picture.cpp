@@ -2,9 +2,9 @@
 
 #include "app/rendering/view.h"
 #include "io/files/error.h"
-#include "io/meshes/baked_light.h"
-#include "io/rendering/render.h"
 #include "parallel/workers.h"
+#include "radiosity/answers/pictures/render.h"
+#include "radiosity/answers/vertices/baked_light.h"
 #include "radiosity/engine/densities/density.h"
 
 #include <algorithm>

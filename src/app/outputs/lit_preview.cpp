@@ -2,8 +2,8 @@
 
 #include "app/gathering/lit_file_output.h"
 #include "app/outputs/preview.h"
-#include "io/lightmaps/lightmap_gather.h"
 #include "parallel/workers.h"
+#include "radiosity/answers/lightmaps/lightmap_gather.h"
 #include "radiosity/light/cached_light/surface_light.h"
 
 #include <exception>

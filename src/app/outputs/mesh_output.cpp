@@ -2,16 +2,16 @@
 
 #include "app/gathering/lit_file_output.h"
 #include "app/outputs/layered_picture.h"
-#include "app/rendering/asked_to_end.h"
 #include "app/rendering/view.h"
 #include "app/terminal/log.h"
-#include "io/lightmaps/lightmap.h"
-#include "io/meshes/baked_light.h"
 #include "io/meshes/glb.h"
-#include "io/meshes/indirect_light.h"
 #include "io/pictures/exr.h"
-#include "io/pictures/up_axis.h"
+#include "parallel/asked_to_end.h"
 #include "parallel/workers.h"
+#include "radiosity/answers/lightmaps/lightmap.h"
+#include "radiosity/answers/vertices/baked_light.h"
+#include "radiosity/answers/vertices/indirect_light.h"
+#include "radiosity/answers/views/up_axis.h"
 #include "radiosity/paper/sampling/rng.h"
 
 namespace hemilux {
@@ -74,8 +74,9 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path,
     };
     report.attempt(lightmap_path(path), [&] {
         if (!results.gathered.lightmaps.empty())
-            return write_lightmap(settings, lightmap_path(path), results.gathered.lightmaps[0],
-                                  results.lamps.lamps, lightmaps_in(results.lamps, 0));
+            return write_lightmap(settings, lightmap_path(path),
+                                  results.gathered.lightmaps[0].value.image, results.lamps.lamps,
+                                  lightmaps_in(results.lamps, 0));
         const Image whole = image_of(light.of_class);
         std::vector<Image> of_lamps =
             of_each_layer(results, [&](const Mesh& lit, const Solution& own) {

@@ -2,7 +2,7 @@
 // The light of a run as a mesh, at its vertices or in a lightmap.
 
 #include "app/outputs/results.h"
-#include "io/results/smooth.h"
+#include "radiosity/answers/vertices/smooth.h"
 
 namespace hemilux {
 

@@ -1,6 +1,7 @@
 #include "app/outputs/preview.h"
 
 #include "app/terminal/live_line.h"
+#include "io/pictures/picture_files.h"
 #include "radiosity/paper/solution/solution.h"
 
 #include <algorithm>

@@ -2,15 +2,16 @@
 // The files that a run leaves behind, as they were asked for.
 
 #include "app/gathering/gathered_light.h"
+#include "app/gathering/lightmap_layout.h"
 #include "app/lamps/lamp_light.h"
 #include "app/rendering/view.h"
 #include "app/report/run_data.h"
 #include "app/running/write_report.h"
 #include "app/settings/settings.h"
-#include "app/terminal/stopwatch.h"
 #include "io/results/points.h"
 #include "io/results/statistics.h"
 #include "io/results/tables.h"
+#include "parallel/stopwatch.h"
 #include "radiosity/paper/solving/solver.h"
 
 #include <span>

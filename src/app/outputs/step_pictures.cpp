@@ -1,7 +1,7 @@
 #include "app/outputs/step_pictures.h"
 
 #include "app/rendering/view.h"
-#include "app/settings/text.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -4,7 +4,8 @@
 #include "app/running/write_report.h"
 #include "app/settings/settings.h"
 #include "bvh/tracer.h"
-#include "io/pictures/image.h"
+#include "io/files/provenance.h"
+#include "radiosity/answers/images/image.h"
 
 #include <atomic>
 #include <span>

@@ -1,7 +1,8 @@
 #include "app/outputs/useful_picture.h"
 
-#include "io/pictures/ssim.h"
-#include "io/rendering/render.h"
+#include "radiosity/answers/images/ssim.h"
+#include "radiosity/answers/images/tone.h"
+#include "radiosity/answers/pictures/render.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"

@@ -1,12 +1,15 @@
 #include "app/rendering/view.h"
 
-#include "app/rendering/asked_to_end.h"
 #include "app/settings/exit_code.h"
-#include "app/settings/text.h"
 #include "geometry/elementary.h"
 #include "io/files/error.h"
-#include "io/meshes/baked_light.h"
+#include "io/files/provenance.h"
 #include "io/pictures/exr.h"
+#include "io/pictures/picture_files.h"
+#include "parallel/asked_to_end.h"
+#include "radiosity/answers/asked/text.h"
+#include "radiosity/answers/images/tone.h"
+#include "radiosity/answers/vertices/baked_light.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
@@ -76,41 +79,9 @@ Camera camera_of(const ViewSettings& view, const LitScene& scene) {
                                         .camera);
 }
 
-RenderOptions picture_options(PixelSize size, unsigned threads,
-                              const std::atomic<bool>& interrupted) {
-    return {.width = size.width,
-            .height = size.height,
-            .threads = threads,
-            .give_up = [&interrupted] { return is_asked_to_end(interrupted); }};
-}
-
-Image render_in_time(RenderOptions options,
-                     const std::function<Image(const RenderOptions&)>& render) {
-    try {
-        return render(options);
-    } catch (const Interrupted&) {
-        options.give_up = {};
-        options.samples = 1;
-        options.square = square_for_speed(options.width, options.height);
-        return render(options);
-    }
-}
-
-Image render_view(const LitScene& scene, const Camera& camera, RenderOptions options) {
-    options.textures = true;
-    return render_in_time(std::move(options), [&](const RenderOptions& in_time) {
-        return render(scene.mesh, scene.tracer, scene.radiosity, camera, in_time);
-    });
-}
-
 std::string squares_text(PixelSize size) {
     const int square = square_for_speed(size.width, size.height);
     return square > 1 ? formatted(", in squares of %d pixels", square) : "";
-}
-
-RowsOfPicture render_gathered(const LitScene& scene, const Camera& camera, RenderOptions options) {
-    options.textures = true;
-    return render_rows(scene.mesh, scene.tracer, scene.radiosity, camera, options);
 }
 
 void write_picture(const Output& output, const Image& image, const ViewSettings& view,

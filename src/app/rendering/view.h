@@ -2,9 +2,11 @@
 // The view of a scene that the user asked for.
 
 #include "app/settings/settings.h"
-#include "io/pictures/image.h"
-#include "io/rendering/render.h"
-#include "io/results/smooth.h"
+#include "io/files/provenance.h"
+#include "radiosity/answers/images/image.h"
+#include "radiosity/answers/images/tone.h"
+#include "radiosity/answers/pictures/lit_scene.h"
+#include "radiosity/answers/vertices/smooth.h"
 
 #include <atomic>
 #include <functional>
@@ -24,38 +26,12 @@ void check_camera(const ViewSettings& view, const Mesh& mesh, const std::string&
 /// Returns the camera that this option gives, so that it may be copied.
 [[nodiscard]] Camera as_printed(Camera camera);
 
-/// A scene with its light, and the number of threads that look at it; it refers to what lives in
-/// the caller.
-struct LitScene {
-    const Mesh& mesh;
-    const Tracer& tracer;
-    std::span<const Vec3> radiosity; ///< linear, by patch [W/m2]
-    unsigned threads = 0;            ///< 0: one per core
-};
-
 /// Returns the camera given, or one chosen for the scene.
 [[nodiscard]] Camera camera_of(const ViewSettings& view, const LitScene& scene);
-
-/// Returns the options of a picture in the size asked for, which ends with Interrupted once the
-/// flag is set. They refer to it.
-[[nodiscard]] RenderOptions picture_options(PixelSize size, unsigned threads,
-                                            const std::atomic<bool>& interrupted);
-
-/// Returns render(options). Where `give_up` ends it, it is called once more for a picture that is
-/// there as fast as can be: large ones in squares.
-[[nodiscard]] Image render_in_time(RenderOptions options,
-                                   const std::function<Image(const RenderOptions&)>& render);
-
-/// Renders the light of the patches so, as the camera sees it, with the textures of surfaces.
-[[nodiscard]] Image render_view(const LitScene& scene, const Camera& camera, RenderOptions options);
 
 /// Returns what a log adds on pictures of this size that are rendered so fast: empty for small
 /// ones.
 [[nodiscard]] std::string squares_text(PixelSize size);
-
-/// Renders light that is gathered, up to the row at which `give_up` ends it.
-[[nodiscard]] RowsOfPicture render_gathered(const LitScene& scene, const Camera& camera,
-                                            RenderOptions options);
 
 /// Writes a .png file, by the exposure of the view, or the light alone in an .hdr or .exr file.
 /// Throws OutputError.

@@ -1,6 +1,6 @@
 #include "app/report/error_charts.h"
 
-#include "app/settings/text.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <cmath>
 #include <limits>

@@ -4,7 +4,7 @@
 #include "app/report/page_file.h"
 #include "geometry/vector.h"
 #include "io/files/little_endian.h"
-#include "io/results/smooth.h"
+#include "radiosity/answers/vertices/smooth.h"
 
 #include <cstdint>
 #include <span>

@@ -4,9 +4,9 @@
 
 #include "app/report/error_charts.h"
 #include "app/report/half_light.h"
-#include "io/pictures/camera.h"
 #include "io/results/statistics.h"
 #include "io/results/tables.h"
+#include "radiosity/answers/views/camera_rays.h"
 #include "radiosity/light/lamps/lamp_layers.h"
 
 #include <optional>

@@ -8,7 +8,7 @@
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
-#include "io/lightmaps/lightmap.h"
+#include "radiosity/answers/lightmaps/lightmap.h"
 
 #include <algorithm>
 #include <filesystem>

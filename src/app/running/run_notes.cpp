@@ -1,6 +1,6 @@
 #include "app/running/run_notes.h"
 
-#include "app/settings/text.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <cmath>
 

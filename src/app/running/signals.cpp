@@ -3,7 +3,8 @@
 #include "app/settings/exit_code.h"
 #include "io/files/atomic_file.h"
 #include "io/files/temporary_file.h"
-#include "io/pictures/image.h"
+#include "io/pictures/picture_files.h"
+#include "radiosity/answers/images/image.h"
 
 #include <array>
 #include <csignal>

@@ -1,7 +1,7 @@
 #include "app/running/step_size.h"
 
-#include "app/settings/text.h"
 #include "app/terminal/log.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <algorithm>
 

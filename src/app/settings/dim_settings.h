@@ -3,6 +3,7 @@
 
 #include "app/settings/overrides.h"
 #include "app/settings/settings.h"
+#include "io/files/provenance.h"
 
 #include <string>
 #include <vector>

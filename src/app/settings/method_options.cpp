@@ -2,7 +2,8 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
-#include "app/settings/text.h"
+#include "radiosity/answers/asked/text.h"
+#include "radiosity/engine/solving/method_option.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 // infinities are never accepted.
 
 #include "geometry/vector.h"
+#include "radiosity/answers/images/image.h"
 
 #include <cstdint>
 #include <optional>
@@ -53,10 +54,6 @@ struct Exposure {
 /// Reads a factor above 0, or stops from -100 to 100 such as "+1.5ev".
 [[nodiscard]] std::optional<Exposure> parse_exposure(std::string_view text);
 
-/// A picture's width and height in pixels.
-struct PixelSize {
-    int width, height;
-};
 /// Reads a size such as "800x600", each side from 1 to 16384.
 [[nodiscard]] std::optional<PixelSize> parse_size(std::string_view text);
 

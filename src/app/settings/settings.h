@@ -10,11 +10,13 @@
 #include "io/files/provenance.h"
 #include "io/gltf/binding.h"
 #include "io/meshes/ply.h"
-#include "io/pictures/camera.h"
 #include "io/results/statistics.h"
+#include "radiosity/answers/images/tone.h"
+#include "radiosity/answers/views/camera_rays.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/light/lamps/lamp_layers.h"
 #include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solving/solve_options.h"
 
 #include <cstdint>
 #include <functional>

@@ -3,6 +3,7 @@
 
 #include "app/settings/settings.h"
 #include "geometry/vector.h"
+#include "io/files/provenance.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,5 +1,7 @@
 #include "app/subcommands/subcommand.h"
 
+#include "io/files/provenance.h"
+
 #include <array>
 
 namespace hemilux {

@@ -4,6 +4,7 @@
 
 #include "app/command_line/arguments.h"
 #include "app/memory/memory.h"
+#include "io/files/provenance.h"
 #include "parallel/ranks.h"
 
 #include <cstdint>

@@ -1,10 +1,10 @@
 #include "app/terminal/log.h"
 
-#include "app/settings/text.h"
 #include "app/terminal/live_line.h"
 #include "app/terminal/wrap.h"
 #include "io/files/atomic_file.h"
 #include "io/files/printable.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <atomic>
 #include <cstdio>

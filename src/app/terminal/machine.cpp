@@ -1,7 +1,7 @@
 #include "app/terminal/machine.h"
 
-#include "app/settings/text.h"
 #include "parallel/instruction_set.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <fstream>
 #include <sys/utsname.h>

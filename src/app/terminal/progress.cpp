@@ -1,6 +1,6 @@
 #include "app/terminal/progress.h"
 
-#include "app/settings/text.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <algorithm>
 #include <cmath>

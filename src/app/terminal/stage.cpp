@@ -1,7 +1,7 @@
 #include "app/terminal/stage.h"
 
-#include "app/settings/text.h"
 #include "app/terminal/progress.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "app/settings/settings.h"
 #include "app/terminal/live_line.h"
-#include "app/terminal/stopwatch.h"
+#include "parallel/stopwatch.h"
 #include "radiosity/paper/solving/solver.h"
 
 #include <atomic>

@@ -1,6 +1,6 @@
 #include "app/terminal/summary.h"
 
-#include "app/settings/text.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <cmath>
 #include <initializer_list>

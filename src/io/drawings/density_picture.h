@@ -1,7 +1,7 @@
 #pragma once
 // A number per patch in false colour, seen through a camera.
 
-#include "io/rendering/render.h"
+#include "radiosity/answers/pictures/render.h"
 
 #include <string>
 

@@ -3,7 +3,8 @@
 // bright, white where it is right.
 
 #include "io/drawings/canvas.h"
-#include "io/pictures/image.h"
+#include "io/pictures/picture_files.h"
+#include "radiosity/answers/images/image.h"
 
 #include <span>
 #include <vector>

@@ -2,7 +2,8 @@
 // The bar below a picture in false colour that says which colour is which number.
 
 #include "io/drawings/colour_bar.h"
-#include "io/pictures/image.h"
+#include "io/pictures/picture_files.h"
+#include "radiosity/answers/images/image.h"
 
 #include <functional>
 #include <span>

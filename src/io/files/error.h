@@ -2,6 +2,7 @@
 // The ways in which files fail; the program turns them into exit codes 2, 3 and those of signals.
 
 #include "io/files/printable.h"
+#include "parallel/asked_to_end.h"
 
 #include <cstddef>
 #include <stdexcept>
@@ -17,12 +18,6 @@ class InputError : public std::runtime_error {
         : std::runtime_error(single_line(file + ":" + std::to_string(line) + ": " + message)) {}
     InputError(const std::string& file, const std::string& message)
         : std::runtime_error(single_line(file + ": " + message)) {}
-};
-
-/// A file was left out because the user asked the program to end.
-class Interrupted : public std::runtime_error {
-  public:
-    Interrupted() : std::runtime_error("interrupted") {}
 };
 
 /// A file that could not be written.

@@ -3,7 +3,7 @@
 // besides meshes.
 
 #include "io/gltf/document/document.h"
-#include "io/scene_files/camera_of_file.h"
+#include "radiosity/answers/views/camera.h"
 
 #include <glm/mat4x4.hpp>
 

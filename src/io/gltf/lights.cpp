@@ -1,8 +1,8 @@
 #include "io/gltf/lights.h"
 
 #include "geometry/elementary.h"
-#include "io/scene_files/emitter_shapes.h"
 #include "radiosity/engine/rays/point_emitter.h"
+#include "radiosity/light/lamps/emitter_shapes.h"
 
 namespace hemilux::gltf {
 

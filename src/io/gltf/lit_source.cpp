@@ -1,12 +1,12 @@
 #include "io/gltf/lit_source.h"
 
 #include "bvh/tracer.h"
-#include "io/charts/chart_regions.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/gltf/document/uri.h"
 #include "io/gltf/instances.h"
 #include "io/gltf/scene_meshes.h"
+#include "radiosity/answers/charts/chart_regions.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>

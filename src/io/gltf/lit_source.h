@@ -2,14 +2,14 @@
 // A glTF file that is read once more, to be written again with a lightmap: its texture coordinates,
 // and the numbers of its vertices.
 
-#include "io/charts/chart_regions.h"
 #include "io/files/outside_files.h"
 #include "io/gltf/elements.h"
 #include "io/gltf/primitives.h"
-#include "io/lightmaps/file_places.h"
-#include "io/lightmaps/smooth_point.h"
-#include "io/lightmaps/texel_map.h"
 #include "io/scene_files/read_result.h"
+#include "radiosity/answers/charts/chart_regions.h"
+#include "radiosity/answers/lightmaps/file_places.h"
+#include "radiosity/answers/lightmaps/smooth_point.h"
+#include "radiosity/answers/lightmaps/texel_map.h"
 
 #include <glm/mat4x4.hpp>
 

@@ -1,6 +1,7 @@
 #include "io/meshes/glb.h"
 
 #include "io/files/little_endian.h"
+#include "io/files/provenance.h"
 #include "io/meshes/glb_container.h"
 #include "radiosity/paper/scene/mesh.h"
 

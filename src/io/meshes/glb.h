@@ -3,7 +3,7 @@
 // and 4.4), for three.js, Godot, Blender and others.
 
 #include "io/files/provenance.h"
-#include "io/meshes/baked_light.h"
+#include "radiosity/answers/vertices/baked_light.h"
 
 #include <span>
 #include <string>

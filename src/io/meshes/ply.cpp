@@ -2,7 +2,8 @@
 
 #include "io/files/atomic_file.h"
 #include "io/files/little_endian.h"
-#include "io/pictures/image.h"
+#include "radiosity/answers/images/image.h"
+#include "radiosity/answers/images/tone.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <span>

@@ -2,7 +2,7 @@
 // The mesh with its light as vertex colours, for viewers and baking: PLY (Turk 1994), binary little
 // endian.
 
-#include "io/meshes/baked_light.h"
+#include "radiosity/answers/vertices/baked_light.h"
 
 #include <string>
 

@@ -1,6 +1,7 @@
 #include "io/meshes/vtu.h"
 
 #include "geometry/frame.h"
+#include "io/files/provenance.h"
 #include "io/meshes/vtk_grid.h"
 #include "radiosity/paper/scene/mesh.h"
 

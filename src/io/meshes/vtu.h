@@ -4,7 +4,7 @@
 // bytes.
 
 #include "io/files/provenance.h"
-#include "io/results/smooth.h"
+#include "radiosity/answers/vertices/smooth.h"
 #include "radiosity/paper/solution/solution.h"
 
 #include <string>

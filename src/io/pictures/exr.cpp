@@ -2,6 +2,8 @@
 
 #include "io/files/atomic_file.h"
 #include "io/files/little_endian.h"
+#include "io/files/provenance.h"
+#include "io/pictures/picture_files.h"
 
 #include <glm/gtc/packing.hpp>
 

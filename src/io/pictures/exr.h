@@ -2,7 +2,8 @@
 // Pictures of many layers: OpenEXR 2 (technical introduction and file layout of the Academy
 // Software Foundation), one part of scan lines with ZIP compression.
 
-#include "io/pictures/image.h"
+#include "io/files/provenance.h"
+#include "radiosity/answers/images/image.h"
 
 #include <cstddef>
 #include <cstdint>

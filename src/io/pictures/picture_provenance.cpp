@@ -1,5 +1,7 @@
 #include "io/pictures/picture_provenance.h"
 
+#include "io/files/provenance.h"
+
 #include <algorithm>
 #include <fstream>
 #include <string_view>

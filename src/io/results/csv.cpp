@@ -1,8 +1,11 @@
 #include "io/results/csv.h"
 
+#include "io/files/atomic_file.h"
 #include "io/files/error.h"
+#include "parallel/workers.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -30,13 +33,6 @@ void append_number(std::string& line, std::uint64_t value) {
     line.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
-void append_fields(std::string& line, const Vec3& v) {
-    for (int i = 0; i < 3; ++i) {
-        line += ',';
-        append_number(line, v[i]);
-    }
-}
-
 void append_text(std::string& line, std::string_view name) {
     std::string text(name);
     if (!text.empty() &&
@@ -52,19 +48,57 @@ void append_text(std::string& line, std::string_view name) {
     line += '"';
 }
 
+void append_field(std::string& line, double value) { append_number(line += ',', value); }
+void append_field(std::string& line, std::uint64_t value) { append_number(line += ',', value); }
+void append_field(std::string& line, std::string_view text) { append_text(line += ',', text); }
+
+void append_known(std::string& line, double value) {
+    line += ',';
+    if (!std::isnan(value))
+        append_number(line, value);
+}
+
+void append_fields(std::string& line, const Vec3& v) {
+    for (int i = 0; i < 3; ++i)
+        append_field(line, v[i]);
+}
+
 void append_names(std::string& header, const MoreColumns& columns) {
     if (!columns.word_name.empty())
-        append_text(header += ',', columns.word_name);
+        append_field(header, columns.word_name);
     for (const ColourColumns& column : columns.colours)
         for (const char* const channel : {".r", ".g", ".b"})
-            append_text(header += ',', column.name + channel);
+            append_field(header, column.name + channel);
 }
 
 void append_fields(std::string& line, const MoreColumns& columns, std::size_t row) {
     if (!columns.word_name.empty())
-        append_text(line += ',', columns.word(row));
+        append_field(line, columns.word(row));
     for (const ColourColumns& column : columns.colours)
         append_fields(line, column.value(row));
+}
+
+void write_table(const std::string& path, const std::string& header, std::size_t rows,
+                 const Workers& workers,
+                 const std::function<void(std::size_t row, std::string& text)>& append_row) {
+    constexpr std::size_t rows_per_text = 256, texts_at_a_time = 64; // about 4 MB
+    AtomicFile file(path);
+    file.write(header + "\n");
+    std::array<std::string, texts_at_a_time> texts;
+    for (std::size_t first = 0; first < rows; first += texts.size() * rows_per_text) {
+        const auto begin_of = [&](std::size_t text) {
+            return std::min(first + text * rows_per_text, rows);
+        };
+        workers.for_each_in_order(
+            texts.size(),
+            [&](std::size_t k) {
+                texts[k].clear();
+                for (std::size_t row = begin_of(k); row < begin_of(k + 1); ++row)
+                    append_row(row, texts[k]);
+            },
+            [&](std::size_t k) { file.write(texts[k]); });
+    }
+    file.commit();
 }
 
 Reader::Reader(const std::string& file, std::string_view content) : file_(file), left_(content) {}

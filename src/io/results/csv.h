@@ -11,17 +11,28 @@
 #include <string_view>
 #include <vector>
 
+namespace hemilux {
+class Workers;
+}
+
 namespace hemilux::csv {
 
 /// Appends the shortest text that gives back the same double, or `nan`, `inf`, `-inf`.
 void append_number(std::string& line, double value);
 void append_number(std::string& line, std::uint64_t value);
-/// Appends a comma and a number three times.
-void append_fields(std::string& line, const Vec3& v);
 /// Appends a text, quoted where it needs that. A spreadsheet takes a cell for a formula that begins
 /// with = + - or @, or with a tab or line end. Such a name gets an apostrophe in front. Numbers are
 /// written by append_number, which adds none.
 void append_text(std::string& line, std::string_view text);
+
+/// Appends a comma and a field.
+void append_field(std::string& line, double value);
+void append_field(std::string& line, std::uint64_t value);
+void append_field(std::string& line, std::string_view text);
+/// Appends a comma and, unless it is NaN, a number.
+void append_known(std::string& line, double value);
+/// Appends a comma and a number three times.
+void append_fields(std::string& line, const Vec3& v);
 
 /// Three columns NAME.r, NAME.g and NAME.b that a table may end with.
 struct ColourColumns {
@@ -37,6 +48,13 @@ struct MoreColumns {
 /// Appends their names, and their fields of a row, each after a comma.
 void append_names(std::string& header, const MoreColumns& columns);
 void append_fields(std::string& line, const MoreColumns& columns, std::size_t row);
+
+/// Writes a table: a header, and rows that `append_row` appends to a text with their line ends.
+/// Threads append some while others are written; the bytes are the same for any number of threads.
+/// Throws OutputError.
+void write_table(const std::string& path, const std::string& header, std::size_t rows,
+                 const Workers& workers,
+                 const std::function<void(std::size_t row, std::string& text)>& append_row);
 
 /// Reads records one after the other. Accepts CRLF and a missing final newline.
 class Reader {

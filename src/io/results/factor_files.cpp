@@ -38,10 +38,8 @@ void write_factor_table(const std::string& path, const SparseMatrix& matrix,
                 continue;
             line.clear();
             csv::append_number(line, std::uint64_t{i});
-            line += ',';
-            csv::append_number(line, std::uint64_t{matrix.column[k]});
-            line += ',';
-            csv::append_number(line, matrix.value[k]);
+            csv::append_field(line, std::uint64_t{matrix.column[k]});
+            csv::append_field(line, matrix.value[k]);
             line += '\n';
             file.write(line);
         }

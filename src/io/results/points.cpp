@@ -1,13 +1,11 @@
 #include "io/results/points.h"
 
 #include "geometry/numeric.h"
-#include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/files/text_reader.h"
 #include "io/files/text_words.h"
 #include "io/results/csv.h"
-#include "parallel/workers.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
@@ -152,28 +150,12 @@ void write_points_table(const std::string& path, const Mesh& mesh,
                         std::span<const NamedPoint> points, std::span<const Sensor> sensors,
                         std::span<const PointLight> lights, const Workers& workers,
                         const csv::MoreColumns& more) {
-    constexpr std::size_t rows_per_text = 256, texts_at_a_time = 64;
-    AtomicFile file(path);
     std::string header(points_header);
     csv::append_names(header, more);
-    file.write(header + "\n");
-    std::array<std::string, texts_at_a_time> texts;
-    for (std::size_t first = 0; first < points.size(); first += texts_at_a_time * rows_per_text) {
-        const auto row = [&](std::size_t text) {
-            return std::min(first + text * rows_per_text, points.size());
-        };
-        workers.for_each_in_order(
-            texts.size(),
-            [&](std::size_t k) {
-                texts[k].clear();
-                for (std::size_t i = row(k); i < row(k + 1); ++i)
-                    append_row(mesh, i, points[i], sensors[i],
-                               i < lights.size() && lights[i].is_known ? &lights[i] : nullptr, more,
-                               texts[k]);
-            },
-            [&](std::size_t k) { file.write(texts[k]); });
-    }
-    file.commit();
+    csv::write_table(path, header, points.size(), workers, [&](std::size_t i, std::string& text) {
+        append_row(mesh, i, points[i], sensors[i],
+                   i < lights.size() && lights[i].is_known ? &lights[i] : nullptr, more, text);
+    });
 }
 
 } // namespace hemilux

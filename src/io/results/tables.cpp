@@ -22,22 +22,6 @@ constexpr std::string_view gradient_header =
     ",gradient_r_x,gradient_r_y,gradient_r_z,gradient_g_x,gradient_g_y,gradient_g_z,gradient_b_x,"
     "gradient_b_y,gradient_b_z";
 
-/// The rows of a text, and the texts at a time, about 4 MB. Some rows are written to the file while
-/// others are put into words.
-constexpr std::size_t rows_per_text = 256, texts_at_a_time = 64;
-
-/// Appends a field that follows a comma.
-template <class Number>
-void add(std::string& line, Number value) {
-    line += ',';
-    csv::append_number(line, value);
-}
-void add_if_known(std::string& line, double value) {
-    line += ',';
-    if (!std::isnan(value))
-        csv::append_number(line, value);
-}
-
 /// The rows of a patch table. The texts that many of them share are made once.
 class PatchRows {
   public:
@@ -47,13 +31,13 @@ class PatchRows {
         : mesh_(mesh), radiosity_(radiosity), standard_error_(standard_error), slope_(slope),
           weight_(weight), more_(more) {
         for (const Material& m : mesh.scene().materials) {
-            csv::append_text(material_.emplace_back(","), m.name);
+            csv::append_field(material_.emplace_back(), m.name);
             std::string& text = colours_.emplace_back();
             csv::append_fields(text, m.reflectance);
             csv::append_fields(text, m.emission);
         }
         for (const std::string& name : mesh.scene().groups)
-            csv::append_text(group_.emplace_back(","), name);
+            csv::append_field(group_.emplace_back(), name);
     }
 
     void append(std::size_t i, std::string& text) const {
@@ -61,10 +45,10 @@ class PatchRows {
         const Facet& facet = mesh_.scene().facets[patch.facet];
         const LocalFrame& frame = mesh_.frame();
         csv::append_number(text, std::uint64_t{i});
-        add(text, std::uint64_t{facet.face});
+        csv::append_field(text, std::uint64_t{facet.face});
         text += material_[patch.material];
         text += facet.group < group_.size() ? group_[facet.group] : ",";
-        add(text, frame.area_to_world(patch.area));
+        csv::append_field(text, frame.area_to_world(patch.area));
         csv::append_fields(text, frame.to_world(patch.centre));
         csv::append_fields(text, patch.normal);
         if (patch.colours == patch.material) {
@@ -82,7 +66,7 @@ class PatchRows {
                                                         slope_[i].y[channel] * axes.y));
         }
         if (!weight_.empty())
-            add(text, weight_[i]);
+            csv::append_field(text, weight_[i]);
         csv::append_fields(text, more_, i);
         text += '\n';
     }
@@ -106,29 +90,14 @@ void write_patch_table(const std::string& path, const Mesh& mesh, std::span<cons
     assert(radiosity.size() == rows);
     assert(standard_error.empty() || standard_error.size() == rows);
     const PatchRows table(mesh, radiosity, standard_error, slope, weight, more);
-    AtomicFile file(path);
     std::string header(patch_header);
     if (!slope.empty())
         header += gradient_header;
     if (!weight.empty())
         header += ",target";
     csv::append_names(header, more);
-    file.write(header + "\n");
-    std::array<std::string, texts_at_a_time> texts;
-    for (std::size_t first = 0; first < rows; first += texts.size() * rows_per_text) {
-        const auto row = [&](std::size_t text) {
-            return std::min(first + text * rows_per_text, rows);
-        };
-        workers.for_each_in_order(
-            texts.size(),
-            [&](std::size_t k) {
-                texts[k].clear();
-                for (std::size_t i = row(k); i < row(k + 1); ++i)
-                    table.append(i, texts[k]);
-            },
-            [&](std::size_t k) { file.write(texts[k]); });
-    }
-    file.commit();
+    csv::write_table(path, header, rows, workers,
+                     [&](std::size_t row, std::string& text) { table.append(row, text); });
 }
 
 void write_steps_log(const std::string& path, std::span<const StepRow> rows) {
@@ -136,17 +105,17 @@ void write_steps_log(const std::string& path, std::span<const StepRow> rows) {
     text += '\n';
     for (const StepRow& row : rows) {
         csv::append_text(text, row.method);
-        add(text, std::uint64_t{row.run});
-        add(text, std::uint64_t{row.record.step});
-        add(text, row.record.rays);
-        add(text, row.record.seconds);
-        add_if_known(text, row.record.estimated_error);
+        csv::append_field(text, std::uint64_t{row.run});
+        csv::append_field(text, std::uint64_t{row.record.step});
+        csv::append_field(text, row.record.rays);
+        csv::append_field(text, row.record.seconds);
+        csv::append_known(text, row.record.estimated_error);
         constexpr double absent = std::numeric_limits<double>::quiet_NaN();
         const RelativeError error = row.error.value_or(RelativeError{absent, absent, absent});
-        add_if_known(text, error.all);
-        add_if_known(text, error.detail);
-        add_if_known(text, error.rest);
-        add_if_known(text, row.total_error.value_or(absent));
+        csv::append_known(text, error.all);
+        csv::append_known(text, error.detail);
+        csv::append_known(text, error.rest);
+        csv::append_known(text, row.total_error.value_or(absent));
         text += '\n';
     }
     write_atomically(path, text);

@@ -3,6 +3,7 @@
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/little_endian.h"
+#include "io/files/provenance.h"
 #include "io/files/stored_zip.h"
 #include "io/results/csv.h"
 #include "io/results/factor_files.h"
@@ -66,11 +67,6 @@ std::size_t entries_of(const FactorTable& table) {
 
 std::uint32_t row_count(const FactorTable& table) {
     return static_cast<std::uint32_t>(table.rows());
-}
-
-void add(std::string& line, double value) {
-    line += ',';
-    csv::append_number(line, value);
 }
 
 template <class Values>
@@ -148,10 +144,9 @@ void write_factor_pairs(const std::string& path, const FactorTable& table) {
                 [&](std::uint32_t row, std::uint32_t column, double factor, double error) {
                     line.clear();
                     csv::append_number(line, std::uint64_t{row});
-                    line += ',';
-                    csv::append_number(line, std::uint64_t{column});
-                    add(line, factor);
-                    add(line, error);
+                    csv::append_field(line, std::uint64_t{column});
+                    csv::append_field(line, factor);
+                    csv::append_field(line, error);
                     file.write(line + '\n');
                 });
     }

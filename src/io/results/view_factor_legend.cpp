@@ -9,16 +9,6 @@
 namespace hemilux {
 namespace {
 
-void append_field(std::string& line, double value) {
-    line += ',';
-    csv::append_number(line, value);
-}
-
-void append_field(std::string& line, const std::string& text) {
-    line += ',';
-    csv::append_text(line, text);
-}
-
 std::string legend_header(const FactorTable& table) {
     std::string header = "surface,name,face,side,material,group,area,x,y,z,nx,ny,nz";
     for (std::size_t k = 0; k < opens; ++k) {
@@ -33,8 +23,8 @@ std::string legend_header(const FactorTable& table) {
 
 void append_shares(std::string& line, std::span<const OpenShare> shares) {
     for (const OpenShare& open : shares) {
-        append_field(line, open.factor);
-        append_field(line, open.standard_error);
+        csv::append_field(line, open.factor);
+        csv::append_field(line, open.standard_error);
     }
 }
 
@@ -45,18 +35,18 @@ std::size_t fields_of_bands(const FactorTable& table) {
 std::string row_of_surface(const FactorTable& table, std::uint32_t i) {
     const FactorSurface& surface = table.surfaces[i];
     std::string line = std::to_string(i);
-    append_field(line, surface.name);
+    csv::append_field(line, surface.name);
     line += "," + surface.face;
-    append_field(line, surface.side);
-    append_field(line, surface.material);
-    append_field(line, surface.group);
-    append_field(line, surface.area);
+    csv::append_field(line, surface.side);
+    csv::append_field(line, surface.material);
+    csv::append_field(line, surface.group);
+    csv::append_field(line, surface.area);
     csv::append_fields(line, surface.centre);
     csv::append_fields(line, surface.normal);
     append_shares(line, table.factors.open[i]);
     if (table.has_pairs) {
-        append_field(line, table.factors.row_sum(i));
-        append_field(line, table.factors.unlisted_bound[i]);
+        csv::append_field(line, table.factors.row_sum(i));
+        csv::append_field(line, table.factors.unlisted_bound[i]);
     } else {
         line += ",,";
     }
@@ -67,15 +57,15 @@ std::string row_of_surface(const FactorTable& table, std::uint32_t i) {
 std::string row_of_point(const FactorTable& table, std::size_t k) {
     const PointFactors& point = table.points[k];
     std::string line = std::to_string(table.size() + k);
-    append_field(line, table.places[k].name);
+    csv::append_field(line, table.places[k].name);
     line += ",,,,,"; // face, side, material, group and area
     csv::append_fields(line, table.places[k].position);
     csv::append_fields(line, table.places[k].normal);
     if (!point.is_known)
         return line + std::string(2 * opens + 2 + fields_of_bands(table), ',');
     append_shares(line, point.open);
-    append_field(line, point.sum());
-    append_field(line, point.unlisted_bound);
+    csv::append_field(line, point.sum());
+    csv::append_field(line, point.unlisted_bound);
     append_shares(line, point.bands);
     return line;
 }

@@ -2,9 +2,9 @@
 
 #include "geometry/polygon.h"
 #include "io/files/text_words.h"
-#include "io/scene_files/emitter_shapes.h"
 #include "radiosity/engine/needs/welded_edges.h"
 #include "radiosity/engine/rays/point_emitter.h"
+#include "radiosity/light/lamps/emitter_shapes.h"
 #include "radiosity/light/layers/coplanar_layers.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/check_input.h"
@@ -86,34 +86,43 @@ std::string text_of_colour(const Vec3& v) {
     return v.x == v.y && v.y == v.z ? text_of(v.x) : text_of(v);
 }
 
-/// Returns a line for each of the first lights without extent.
-std::string describe_points(const std::vector<PointInfo>& points) {
+/// Returns a line for each of the first of a list, with the name before the first one.
+template <class Item, class TextOf>
+std::string describe_list(const std::string& name, const std::vector<Item>& items,
+                          const TextOf& text_of_item) {
     constexpr std::size_t most = 8;
     std::string text;
-    for (std::size_t k = 0; k < std::min(points.size(), most); ++k) {
-        const PointInfo& point = points[k];
-        text += info_line(
-            k == 0 ? "without extent" : "",
-            point.name + ": a " + point.kind + ", " + text_of_colour(point.intensity) + " W/sr, " +
-                text_of(point.power.x + point.power.y + point.power.z) + " W in all channels");
-    }
-    if (points.size() > most)
-        text += info_line("", "and " + std::to_string(points.size() - most) + " more");
+    for (std::size_t k = 0; k < std::min(items.size(), most); ++k)
+        text += info_line(k == 0 ? name : "", text_of_item(items[k]));
+    if (items.size() > most)
+        text += info_line("", "and " + std::to_string(items.size() - most) + " more");
     return text;
 }
 
-/// Returns a line for each of the first materials that let light through.
+std::string watts_of(const Vec3& power) {
+    return text_of(power.x + power.y + power.z) + " W in all channels";
+}
+
+std::string describe_emitters(const std::vector<EmitterInfo>& emitters) {
+    return describe_list("emitting materials", emitters, [](const EmitterInfo& emitter) {
+        return emitter.name + ": " + text_of_colour(emitter.emission) + " W/m2, " +
+               watts_of(emitter.power) + (emitter.both_sides ? ", to both sides" : "");
+    });
+}
+
+std::string describe_points(const std::vector<PointInfo>& points) {
+    return describe_list("without extent", points, [](const PointInfo& point) {
+        return point.name + ": a " + point.kind + ", " + text_of_colour(point.intensity) +
+               " W/sr, " + watts_of(point.power);
+    });
+}
+
+/// Describes the materials that let light through.
 std::string describe_glass(const std::vector<GlassInfo>& all) {
-    constexpr std::size_t most = 8;
-    std::string text;
-    for (std::size_t k = 0; k < std::min(all.size(), most); ++k)
-        text +=
-            info_line(k == 0 ? "glass" : "",
-                      all[k].name + ": lets " + text_of_colour(all[k].transmittance) +
-                          " of the light through" + (all[k].open ? "" : ", but is opaque here"));
-    if (all.size() > most)
-        text += info_line("", "and " + std::to_string(all.size() - most) + " more");
-    return text;
+    return describe_list("glass", all, [](const GlassInfo& glass) {
+        return glass.name + ": lets " + text_of_colour(glass.transmittance) +
+               " of the light through" + (glass.open ? "" : ", but is opaque here");
+    });
 }
 
 /// Returns the faces, and the triangles and quads that they are made into.
@@ -134,23 +143,6 @@ std::string describe_power(const SceneInfo& info) {
                                   "solve and bake need --sky 1, a --sun, a --light or --emission "
                                   "'MATERIAL=R,G,B'");
     return info_line("emitted power", text_of(info.emitted_power) + " W (red, green, blue)");
-}
-
-/// Returns a line for each of the first emitters.
-std::string describe_emitters(const std::vector<EmitterInfo>& emitters) {
-    constexpr std::size_t most = 8;
-    const std::string name = "emitting materials";
-    std::string text;
-    for (std::size_t k = 0; k < std::min(emitters.size(), most); ++k) {
-        const EmitterInfo& emitter = emitters[k];
-        text += info_line(k == 0 ? name : "",
-                          emitter.name + ": " + text_of_colour(emitter.emission) + " W/m2, " +
-                              text_of(emitter.power.x + emitter.power.y + emitter.power.z) +
-                              " W in all channels" + (emitter.both_sides ? ", to both sides" : ""));
-    }
-    if (emitters.size() > most)
-        text += info_line("", "and " + std::to_string(emitters.size() - most) + " more");
-    return text;
 }
 
 } // namespace

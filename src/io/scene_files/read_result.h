@@ -2,7 +2,7 @@
 // The result of reading a scene file, whatever its format.
 
 #include "io/files/outside_files.h"
-#include "io/scene_files/camera_of_file.h"
+#include "radiosity/answers/views/camera.h"
 #include "radiosity/paper/scene/scene.h"
 
 #include <cstddef>

@@ -145,16 +145,11 @@ std::vector<Needless> needless_scenes() {
                                                          {"stored-transport", work_alone}};
     const std::vector<std::pair<const char*, Saves>> linear{{"matrix", work_alone}};
     const char* const unlit = "no light can reach them";
-    ObjText dark_room = ObjText().lit_room().block(1, 0);
-    dark_room.box({6, 0, 0}, {10, 3, 4}, true);
-    dark_room.block(7, 0);
     ObjText divided_panel;
     divided_panel.box({0, 0, 0}, {4, 3, 4}, true, "lamp", 2);
     ObjText twins = ObjText().lit_room();
-    ObjText turned = ObjText().lit_room().block(1, 1);
     for (int k = 0; k < 2; ++k)
         twins.quad("white", {{{1, 1, 1}, {1, 1, 3}, {3, 1, 3}, {3, 1, 1}}});
-    turned.quad("white", {{{0, -1, 0}, {1, -1, 0}, {1, -1, 1}, {0, -1, 1}}});
     ObjText unused; // before those in use, which all get other numbers
     for (int k = 0; k < 100; ++k)
         unused.vertex({.01 * k, 1, 1});
@@ -164,9 +159,7 @@ std::vector<Needless> needless_scenes() {
     few.quad("white", {{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}});
     const ObjText room = ObjText().lit_room().block(1, 1);
     return {
-        {"a sealed dark room", dark_room, coloured, unlit, all},
-        {"a thing outside a sealed room", ObjText().lit_room().block(6, 1), coloured, unlit, all},
-        {"the outside of a room", turned, coloured, unlit, all, "--two-sided"},
+        {"the outside of a room", room, coloured, unlit, all, "--two-sided"},
         {"a covered twin", twins, coloured, unlit, all, "--sides front"},
         {"a convex room",
          ObjText().lit_room(),

@@ -2,7 +2,10 @@
 // other state.
 #include "app/check_fails.h"
 #include "app/statistics_file.h"
-#include "io/pictures/image.h"
+#include "io/files/provenance.h"
+#include "io/pictures/picture_files.h"
+#include "radiosity/answers/images/image.h"
+#include "radiosity/answers/images/tone.h"
 #include "support/catch.h"
 
 #include <cmath>

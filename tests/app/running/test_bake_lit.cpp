@@ -2,8 +2,9 @@
 // file says of its materials stays as a variant.
 #include "app/check_fails.h"
 #include "app/running/small_room.h"
-#include "io/pictures/image.h"
+#include "io/pictures/picture_files.h"
 #include "io/textures/texture_files.h"
+#include "radiosity/answers/images/image.h"
 #include "support/catch.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #include "app/check_fails.h"
 #include "app/program.h"
 #include "app/split.h"
-#include "io/pictures/ssim.h"
 #include "io/png_reader.h"
+#include "radiosity/answers/images/ssim.h"
 #include "support/catch.h"
 
 #include <string>

@@ -3,6 +3,7 @@
 #include "io/gltf/document/container.h"
 #include "io/gltf/gltf.h"
 #include "io/meshes/glb.h"
+#include "radiosity/answers/images/tone.h"
 #include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"

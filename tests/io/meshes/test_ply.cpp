@@ -1,6 +1,7 @@
 #include "io/files/error.h"
 #include "io/meshes/ply.h"
-#include "io/pictures/image.h"
+#include "radiosity/answers/images/image.h"
+#include "radiosity/answers/images/tone.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"

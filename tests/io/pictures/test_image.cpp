@@ -1,8 +1,9 @@
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/pictures/exr_reader.h"
-#include "io/pictures/image.h"
+#include "io/pictures/picture_files.h"
 #include "io/png_reader.h"
+#include "radiosity/answers/images/image.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 

@@ -1,11 +1,12 @@
 // Textures of OBJ files, from the picture's file to the colours of patches and pictures.
 
 #include "io/files/error.h"
-#include "io/pictures/image.h"
-#include "io/rendering/render.h"
+#include "io/pictures/picture_files.h"
 #include "io/scene_files/obj.h"
 #include "io/textures/texture_files.h"
 #include "io/textures/webp.h"
+#include "radiosity/answers/images/image.h"
+#include "radiosity/answers/pictures/render.h"
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"

@@ -47,7 +47,7 @@ void find_channels(const Mesh& mesh, Needs& needs) {
 }
 
 void find_idle_patches(const Mesh& mesh, Needs& needs) {
-    const std::vector<bool> lit = find_lit_patches(mesh, !needs.visibility);
+    const std::vector<bool> lit = find_lit_patches(mesh);
     needs.idle.resize(lit.size());
     needs.bounces = false;
     for (std::uint32_t i = 0; i < lit.size(); ++i) {

@@ -1,7 +1,6 @@
 #include "radiosity/engine/needs/lit_facets.h"
 
 #include "radiosity/engine/needs/covered_sides.h"
-#include "radiosity/engine/needs/sealed_spaces.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -67,8 +66,7 @@ struct Side {
 
 class Spread {
   public:
-    Spread(const Mesh& mesh, SealedSpaces spaces)
-        : mesh_(mesh), spaces_(std::move(spaces)), shining_in_(spaces_.count()) {
+    explicit Spread(const Mesh& mesh) : mesh_(mesh) {
         two_sided_ = std::ranges::any_of(mesh.patches(), &Patch::back);
         const FacetSoup soup = mesh.soup();
         for (const FacetCorners& corners : soup.facets) {
@@ -100,12 +98,8 @@ class Spread {
         light_by_points();
         std::vector<bool> shone(sides_.size());
         while (!shining_.empty()) {
-            for (std::vector<std::uint32_t>& of_space : shining_in_)
-                of_space.clear();
-            for (const std::uint32_t s : shining_) {
+            for (const std::uint32_t s : shining_)
                 shone[s] = true;
-                shining_in_[space_of(s)].push_back(s);
-            }
             last_ = shining_.front();
             std::vector<std::uint32_t> next;
             for (std::uint32_t s = 0; s < sides_.size(); ++s)
@@ -132,19 +126,15 @@ class Spread {
         const Scene& scene = mesh_.scene();
         return scene.materials[scene.facets[facet_of(side)].material];
     }
-    [[nodiscard]] std::uint32_t space_of(std::uint32_t side) const {
-        return spaces_.of(facet_of(side), is_front(side));
-    }
 
     /// Lights the sides in front of which a light without extent stands. Those that reflect begin
     /// to shine.
     void light_by_points() {
         const auto emitters = point_emitters_of(mesh_.scene());
-        for (std::size_t k = 0; k < emitters.size(); ++k)
+        for (const PointEmitter& emitter : emitters)
             for (std::uint32_t s = 0; s < sides_.size(); ++s) {
                 if (lit_[s] || !has_patches_[s] || covered_[s] ||
-                    !spaces_.may_exchange(space_of(s), spaces_.of_point_emitter(k)) ||
-                    !sides_[s].is_in_front(mesh_.frame().to_local(emitters[k].position)))
+                    !sides_[s].is_in_front(mesh_.frame().to_local(emitter.position)))
                     continue;
                 lit_[s] = true;
                 if (material(s).emission == Vec3(0.0) && material(s).reflectance != Vec3(0.0))
@@ -155,23 +145,15 @@ class Spread {
     /// Returns whether one of the sides that have just begun to shine shines at this one. Tests the
     /// side that was found last first.
     bool is_reached(std::uint32_t s) {
-        if (spaces_.may_exchange(space_of(s), space_of(last_)) && sees(s, last_))
+        if (looks_ > max_looks || sees(s, last_))
             return true;
-        for (std::uint32_t space = 0; space < spaces_.count(); ++space) {
-            const std::vector<std::uint32_t>& others = shining_in_[space];
-            if (others.empty() || !spaces_.may_exchange(space_of(s), space))
-                continue;
-            if (looks_ > max_looks)
-                return true;
-            const auto found =
-                std::ranges::find_if(others, [&](std::uint32_t other) { return sees(s, other); });
-            looks_ += static_cast<std::size_t>(found - others.begin());
-            if (found != others.end()) {
-                last_ = *found;
-                return true;
-            }
-        }
-        return false;
+        const auto found =
+            std::ranges::find_if(shining_, [&](std::uint32_t other) { return sees(s, other); });
+        looks_ += static_cast<std::size_t>(found - shining_.begin());
+        if (found == shining_.end())
+            return false;
+        last_ = *found;
+        return true;
     }
 
     /// Returns whether no cover is between two sides, as far as the first one's is concerned.
@@ -185,7 +167,6 @@ class Spread {
     }
 
     const Mesh& mesh_;
-    SealedSpaces spaces_;
     bool two_sided_ = false;
     std::vector<Side> sides_;
     std::vector<bool> has_patches_;
@@ -193,15 +174,12 @@ class Spread {
     std::vector<std::vector<std::uint32_t>> sides_faced_; ///< of covered sides
     std::vector<bool> lit_;
     std::vector<std::uint32_t> shining_; ///< sides that began to shine since the last round
-    std::vector<std::vector<std::uint32_t>> shining_in_; ///< these by space
     std::size_t looks_ = 0;
     std::uint32_t last_ = 0;
 };
 
 } // namespace
 
-std::vector<bool> find_lit_patches(const Mesh& mesh, bool is_convex) {
-    return Spread(mesh, is_convex ? SealedSpaces() : SealedSpaces(mesh)).lit_patches();
-}
+std::vector<bool> find_lit_patches(const Mesh& mesh) { return Spread(mesh).lit_patches(); }
 
 } // namespace hemilux

@@ -8,11 +8,9 @@
 #include <utility>
 
 namespace hemilux {
-std::size_t PositionHash::operator()(const Vec3& p) const {
-    const auto word = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }; // -0 is 0
-    return mix_bits(mix_bits(mix_bits(word(p.x)) + word(p.y)) + word(p.z));
-}
+namespace {
 
+/// Returns for each vertex the number of the first one at its position.
 std::vector<std::uint32_t> first_in_place(std::span<const Vec3> vertices) {
     std::unordered_map<Vec3, std::uint32_t, PositionHash> first;
     first.reserve(vertices.size());
@@ -21,6 +19,13 @@ std::vector<std::uint32_t> first_in_place(std::span<const Vec3> vertices) {
     for (std::uint32_t v = 0; v < vertices.size(); ++v)
         welded.push_back(first.try_emplace(vertices[v], v).first->second);
     return welded;
+}
+
+} // namespace
+
+std::size_t PositionHash::operator()(const Vec3& p) const {
+    const auto word = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }; // -0 is 0
+    return mix_bits(mix_bits(mix_bits(word(p.x)) + word(p.y)) + word(p.z));
 }
 
 std::vector<Edge> edges_of(std::span<const FacetCorners> facets,

@@ -24,9 +24,6 @@ struct Edge {
     bool forward; ///< the facet runs from the smaller vertex to the larger one
 };
 
-/// Returns for each vertex the number of the first one at its position.
-[[nodiscard]] std::vector<std::uint32_t> first_in_place(std::span<const Vec3> vertices);
-
 /// Returns the edges of all facets, except those without length. They are sorted by their ends,
 /// then by facet, so that edges in one place are neighbours. `first` gives for each vertex the one
 /// whose number stands for all in its place.

@@ -3,6 +3,7 @@
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/transport_figures.h"
+#include "radiosity/paper/solution/solution.h"
 
 #include <array>
 

@@ -9,6 +9,7 @@
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/engine/solving/left_out.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/guides.h"
@@ -376,7 +377,7 @@ TEST_CASE("What is left out keeps every byte where that is promised, else the re
                     const std::string name(method->name);
                     const bool bytes = keeps_every_byte(name, guide, c.omission);
                     SolveOptions options = with_rays(bytes ? 4 : 64, literal);
-                    options.own.of<GuideChoice>().guide = guide;
+                    set_own_options(options, GuideChoice{.guide = guide});
                     const std::uint32_t steps = bytes ? 2 : 6;
                     const Solution with = solve_with(mesh, needs, *method, options, steps);
                     options.keep_all = true;

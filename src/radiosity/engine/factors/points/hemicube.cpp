@@ -1,7 +1,7 @@
 #include "radiosity/engine/factors/points/hemicube.h"
 
 #include "geometry/projected_polygon.h"
-#include "radiosity/paper/rays/receivers.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 

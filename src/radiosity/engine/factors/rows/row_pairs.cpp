@@ -1,6 +1,7 @@
 #include "radiosity/engine/factors/rows/row_pairs.h"
 
 #include "geometry/elementary.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>

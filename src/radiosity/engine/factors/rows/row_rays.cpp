@@ -2,6 +2,7 @@
 
 #include "radiosity/engine/factors/rows/rows_done.h"
 #include "radiosity/engine/factors/rows/sky_bands.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/rays/shot.h"

@@ -4,6 +4,7 @@
 #include "radiosity/engine/factors/points/hemicube.h"
 #include "radiosity/engine/form_factors/closed_form_factors.h"
 #include "radiosity/engine/form_factors/factor_options.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/closed_forms.h"
@@ -62,7 +63,7 @@ struct FirstRow {
 
 SolveOptions with_hemicubes(std::uint32_t edge) {
     SolveOptions options;
-    options.own.of<FactorOptions>() = {FactorKind::hemicube, edge};
+    set_own_options(options, FactorOptions{FactorKind::hemicube, edge});
     return options;
 }
 

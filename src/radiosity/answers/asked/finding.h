@@ -1,0 +1,24 @@
+#pragma once
+// What a library has to say of a scene, of work under way and of a result. The program prints it,
+// Python raises warnings and keeps it, a page shows it.
+
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+struct Finding {
+    /// How much it matters to who asked.
+    enum class Kind {
+        detail,      ///< a figure of work under way, for those who follow it closely
+        note,        ///< what was chosen, or what a result is
+        warning,     ///< a result that may not be what was asked for, or a doubt about it
+        ended_early, ///< what is left where the user asked the program to end
+    };
+    Kind kind = Kind::note;
+    std::string text; ///< a sentence without its full stop
+};
+
+using Findings = std::vector<Finding>;
+
+} // namespace hemilux
