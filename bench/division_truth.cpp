@@ -152,7 +152,7 @@ class Truth {
     Truth(const Scene& scene, const MeshOptions& options, const Settings& settings)
         : scene_(scene), options_(options) {
         const Mesh mesh = layered_mesh(scene, options);
-        const MadeTracer made = make_tracer(mesh, true, settings.threads);
+        const MadeTracer made = make_tracer(mesh, settings.threads);
         points_ =
             draw_points(mesh, target_weights(solve_settings(settings), {}, mesh, *made.tracer),
                         settings.points);
@@ -225,7 +225,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     SolveSettings solve = solve_settings(settings);
     solve.options.seed = seed;
     solve.stop.error = error;
-    const MadeTracer made = make_tracer(mesh, find_needs(mesh).tree, settings.threads);
+    const MadeTracer made = make_tracer(mesh, settings.threads);
     Monitor monitor;
     Statistics statistics;
     SolveOptions options = solve.options;

@@ -35,7 +35,8 @@ if(HEMILUX_PROGRAM)
   hemilux_add_library(hemilux_app ${app_files} ${json_files} ${PROJECT_BINARY_DIR}/report_assets.cpp)
   # nlohmann-json takes longer to compile than what uses it: once for all.
   set_source_files_properties(
-    src/app/report/run_data.cpp src/io/gltf/document/json_value.cpp src/io/gltf/lit_file.cpp src/io/meshes/glb.cpp
+    src/app/report/run_data.cpp src/io/gltf/document/json_value.cpp src/io/gltf/lit_file.cpp
+    src/io/gltf/lit_materials.cpp src/io/gltf/open_document.cpp src/io/meshes/glb.cpp
     src/io/results/scene_info_json.cpp src/io/results/statistics.cpp PROPERTIES UNITY_GROUP json)
   # From the program's folder to that of its module.
   file(RELATIVE_PATH module_folder /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR}/hemilux)

@@ -99,10 +99,7 @@ std::unique_ptr<RunResult> run_method(const PythonMesh& mesh, const SolveSetting
     options.stop = stop;
     if (!options.keep_all)
         result->needs = find_needs(mesh.mesh());
-    if (!result->needs.tree)
-        result->tracer = make_tracer(mesh.mesh(), false, options.threads);
-    const Tracer* const own = result->tracer.tracer.get();
-    const SolverInput input{mesh.mesh(), own ? *own : mesh.tree(options.threads), options, monitor,
+    const SolverInput input{mesh.mesh(), mesh.tree(options.threads), options, monitor,
                             result->needs};
     const Stopwatch solving;
     try {

@@ -4,7 +4,6 @@
 #include "app/settings/settings.h"
 #include "python/arrays.h"
 #include "python/scene.h"
-#include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/engine/solving/run.h"
 #include "radiosity/paper/scene/needs.h"
 
@@ -37,7 +36,6 @@ struct RunNumbers {
 struct RunResult {
     SolveOptions options;
     Needs needs;
-    MadeTracer tracer;              ///< empty where the mesh's own is used
     std::unique_ptr<Solver> solver; ///< refers to all of these, and to the mesh
     std::vector<StepRecord> steps;
     std::vector<double> true_errors; ///< by step; empty without a reference

@@ -23,7 +23,6 @@
 #include "radiosity/answers/asked/text.h"
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/find_needs.h"
-#include "radiosity/engine/needs/unused_vertices.h"
 #include "radiosity/light/layers/layered_mesh.h"
 
 #include <algorithm>
@@ -185,8 +184,7 @@ Prepared prepare(LoadedMesh& loaded, const SolveOptions& options, Verbosity verb
     Prepared prepared{.needs = {}, .made = std::move(loaded.made), .seconds = 0};
     Workers(options.threads).for_chunks(2, 1, [&](std::size_t part, std::size_t) {
         if (part == 0 && !prepared.made.tracer)
-            prepared.made =
-                make_tracer(mesh, options.keep_all || needs_tree(mesh), options.threads);
+            prepared.made = make_tracer(mesh, options.threads);
         else if (part == 0)
             return;
         else if (options.keep_all)
@@ -228,8 +226,6 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
     log_warnings(verbosity, read.warnings);
     check_solvable(read, settings.path);
     const double seconds = reading.seconds();
-    if (!options.keep_all)
-        drop_unused_vertices(read.scene);
     MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods, before);
     need.results = bytes_of_results(patches_of(read.scene, settings.mesh));
     check_memory(need, settings.memory, settings.path);

@@ -121,7 +121,7 @@ SidedMesh divide_with_sides(Scene scene, const SceneSettings& settings, const So
     }
     const auto divide = [&](Scene sided) {
         Mesh mesh = divide_scene(std::move(sided), settings, options.threads);
-        MadeTracer made = make_tracer(mesh, options.keep_all || needs_tree(mesh), options.threads);
+        MadeTracer made = make_tracer(mesh, options.threads);
         return SidedMesh{std::move(mesh), std::move(made)};
     };
     SidedMesh sided = divide(std::move(scene));

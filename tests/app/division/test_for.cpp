@@ -97,7 +97,7 @@ TEST_CASE("Points of --for are read once, however often patches are divided") {
     const auto points = hemilux::points_of_target(settings.target);
     std::filesystem::remove(place.path("p.txt"));
     const hemilux::Mesh mesh(hemilux::read_obj(place.path("room.obj")).scene);
-    const hemilux::MadeTracer made = hemilux::make_tracer(mesh, false, 1);
+    const hemilux::MadeTracer made = hemilux::make_tracer(mesh, 1);
     const auto weights = hemilux::target_weights(settings, points, mesh, *made.tracer);
     CHECK(std::ranges::count(weights, 1) == 1);
 }
