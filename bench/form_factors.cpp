@@ -11,8 +11,8 @@
 #include "clock.h"
 #include "geometry/projected_polygon.h"
 #include "io/scene_files/obj.h"
+#include "radiosity/engine/factors/points/hemicube.h"
 #include "radiosity/engine/form_factors/exact_form_factors.h"
-#include "radiosity/engine/form_factors/hemicube.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 

@@ -15,6 +15,7 @@
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/engine/solving/run.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -93,7 +94,7 @@ class Measurement {
         options.rays = rays_per_step;
         options.threads = 1;
         options.seed = seed;
-        options.own.of<GuideChoice>().guide = variant.guide;
+        set_own_options(options, GuideChoice{.guide = variant.guide});
         const double start = bench::cpu_seconds();
         const Solution s =
             solve(variant.method, options, {.steps = steps, .seconds = {}, .error = {}});

@@ -27,8 +27,7 @@ if(TARGET hemilux_io)
   install(TARGETS hemilux_io EXPORT hemilux_io COMPONENT io)
   install(EXPORT hemilux_io NAMESPACE hemilux:: DESTINATION ${package_folder} COMPONENT io)
   install(DIRECTORY src/io DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hemilux COMPONENT io
-          FILES_MATCHING PATTERN "*.h" PATTERN gltf EXCLUDE PATTERN scene_info_json.h EXCLUDE
-          PATTERN glb.h EXCLUDE)
+          FILES_MATCHING PATTERN "*.h")
 endif()
 configure_package_config_file(cmake/hemiluxConfig.cmake.in ${PROJECT_BINARY_DIR}/hemiluxConfig.cmake
                               INSTALL_DESTINATION ${package_folder})

@@ -2,18 +2,25 @@
 
 # Reading and writing files, for the program, the examples and the tests.
 file(GLOB_RECURSE io_files CONFIGURE_DEPENDS src/io/*.cpp)
-# The program's: they need nlohmann-json.
-file(GLOB json_files CONFIGURE_DEPENDS src/io/results/statistics.cpp src/io/results/scene_info_json.cpp
-     src/io/meshes/glb.cpp src/io/gltf/*.cpp src/io/gltf/document/*.cpp)
-list(REMOVE_ITEM io_files ${json_files})
+if(NOT nlohmann_json_FOUND) # which these need
+  file(GLOB json_files CONFIGURE_DEPENDS src/io/results/statistics.cpp src/io/results/scene_info_json.cpp
+       src/io/meshes/glb.cpp src/io/gltf/*.cpp src/io/gltf/document/*.cpp)
+  list(REMOVE_ITEM io_files ${json_files})
+endif()
 hemilux_add_library(hemilux_io ${io_files})
 foreach(part IN LISTS parts)
   target_include_directories(${part} SYSTEM PRIVATE ${STB_INCLUDE_DIR} $<$<BOOL:${HEMILUX_WEBP}>:${WEBP_INCLUDE_DIR}>)
   # As below: what computes is in the library.
   target_compile_options(${part} PRIVATE $<$<CONFIG:Release>:-O2>)
-  target_link_libraries(${part} PRIVATE $<BUILD_INTERFACE:hemilux_options>)
+  target_link_libraries(${part} PRIVATE $<BUILD_INTERFACE:hemilux_options>
+                        $<$<BOOL:${nlohmann_json_FOUND}>:$<BUILD_INTERFACE:nlohmann_json::nlohmann_json>>)
 endforeach()
 target_link_libraries(hemilux_io PUBLIC hemilux)
+# nlohmann-json takes longer to compile than what uses it: once for all.
+set_source_files_properties(
+  src/io/gltf/document/json_value.cpp src/io/gltf/lit_file.cpp src/io/gltf/lit_materials.cpp
+  src/io/gltf/open_document.cpp src/io/meshes/glb.cpp src/io/results/scene_info_json.cpp
+  src/io/results/statistics.cpp PROPERTIES UNITY_GROUP json)
 set_target_properties(hemilux_io PROPERTIES EXPORT_NAME io)
 if(ZLIB_FOUND)
   set_source_files_properties(src/io/pictures/picture_files.cpp PROPERTIES COMPILE_DEFINITIONS HEMILUX_ZLIB)
@@ -32,12 +39,7 @@ if(HEMILUX_PROGRAM)
   # Reading arguments need not be fast, and CLI11 takes long to optimise.
   set_source_files_properties(src/app/command_line/arguments.cpp PROPERTIES
                               COMPILE_OPTIONS -O0 SKIP_PRECOMPILE_HEADERS ON)
-  hemilux_add_library(hemilux_app ${app_files} ${json_files} ${PROJECT_BINARY_DIR}/report_assets.cpp)
-  # nlohmann-json takes longer to compile than what uses it: once for all.
-  set_source_files_properties(
-    src/app/report/run_data.cpp src/io/gltf/document/json_value.cpp src/io/gltf/lit_file.cpp
-    src/io/gltf/lit_materials.cpp src/io/gltf/open_document.cpp src/io/meshes/glb.cpp
-    src/io/results/scene_info_json.cpp src/io/results/statistics.cpp PROPERTIES UNITY_GROUP json)
+  hemilux_add_library(hemilux_app ${app_files} ${PROJECT_BINARY_DIR}/report_assets.cpp)
   # From the program's folder to that of its module.
   file(RELATIVE_PATH module_folder /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR}/hemilux)
   foreach(part IN LISTS parts)

@@ -9,8 +9,8 @@
 
 #include "bvh/wide/wide_bvh.h"
 #include "geometry/projected_polygon.h"
-#include "radiosity/engine/form_factors/exchange_area.h"
-#include "radiosity/engine/form_factors/hemicube.h"
+#include "radiosity/engine/factors/pairs/exchange_area.h"
+#include "radiosity/engine/factors/points/hemicube.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 

@@ -9,10 +9,10 @@
 // are any.
 #include "bvh/wide/wide_bvh.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/factors/rows/view_factors.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/engine/solving/method.h"
-#include "radiosity/engine/view_factors/view_factors.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/example_scenes.h"
 

@@ -10,6 +10,7 @@
 #include "parallel/stopwatch.h"
 #include "radiosity/engine/emitters/lit_by_points.h"
 #include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/engine/solving/method_option.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 
 namespace hemilux {
@@ -34,7 +35,7 @@ void check(const RunNumbers& numbers) {
 }
 
 /// Sets the options that belong to the method.
-void set_own(const Method& method, const RunNumbers& numbers, SolveOptions& options) {
+void set_own_options(const Method& method, const RunNumbers& numbers, SolveOptions& options) {
     const std::vector<MethodOption> known = method.own_options();
     for (const auto& [name, value] : numbers.own) {
         const auto option = std::ranges::find(known, name, &MethodOption::name);
@@ -78,7 +79,7 @@ SolveSettings settings_of(const Method& method, const RunNumbers& numbers) {
     options.threads = numbers.threads;
     if (numbers.literal && !method.has_literal)
         throw UsageError("literal: " + std::string(method.name) + " has no printed rules");
-    set_own(method, numbers, options);
+    set_own_options(method, numbers, options);
     check_own_options(options, {&settings.method, 1});
     settings.stop = {.steps = numbers.steps,
                      .seconds = numbers.seconds,

@@ -46,9 +46,9 @@ chance_within_cluster @@ engine @@ radiosity/engine/emitters/emitter_choice.cpp 
 emitters_by_index @@ engine @@ radiosity/engine/emitters/emitter_choice.cpp @@ return {order_[cluster.begin + k], (powers[k + 1] - powers[k]) / power}; @@ return {order_[cluster.begin + std::uint32_t(share * (cluster.end - cluster.begin)) + 0 * k], 1.0 / (cluster.end - cluster.begin)};
 chance_of_cluster_dropped @@ engine @@ radiosity/engine/emitters/emitter_choice.cpp @@ choice.chance *= width / cut.sum @@ choice.chance = width / cut.sum
 chance_of_receiver_dropped @@ engine @@ radiosity/engine/progressive/shot_factors.cpp @@ f.factor /= chance @@ f.factor /= 1
-far_lamps_two_percent_brighter @@ engine @@ radiosity/engine/form_factors/pair_factor.cpp @@ / (batches * points_each) @@ / (.98 * batches * points_each)
-hemicube_side_as_top @@ engine @@ radiosity/engine/form_factors/hemicube.cpp @@ side_[row * half + from_middle(column)] @@ top_[row * half + from_middle(column)]
-hemicube_mirrored @@ engine @@ radiosity/engine/form_factors/hemicube.cpp @@ return {-u, 1, v}; @@ return {u, 1, v};
+far_lamps_two_percent_brighter @@ engine @@ radiosity/engine/factors/pairs/pair_factor.cpp @@ / (batches * points_each) @@ / (.98 * batches * points_each)
+hemicube_side_as_top @@ engine @@ radiosity/engine/factors/points/hemicube.cpp @@ side_[row * half + from_middle(column)] @@ top_[row * half + from_middle(column)]
+hemicube_mirrored @@ engine @@ radiosity/engine/factors/points/hemicube.cpp @@ return {-u, 1, v}; @@ return {u, 1, v};
 loss_is_not_allowed_for @@ engine @@ radiosity/engine/methods/matrix.cpp @@ rule_of_three * leaving / (rays * emitted) @@ 0 * leaving / (rays * emitted)
 rays_lost_by_filter @@ engine @@ bvh/wide/kernels/conservative_test.h @@ return F8::splat(error_share) * e * @@ return F8::splat(-1000 * error_share) * e *
 two_percent_to_balls @@ research @@ radiosity/research/targets/rays_to_balls.cpp @@ shots.power.push_back(shot->power / std::max(takers, 1u) / @@ shots.power.push_back(1.02 * shot->power / std::max(takers, 1u) /

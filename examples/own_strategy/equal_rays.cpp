@@ -14,6 +14,7 @@
 
 #include "radiosity/engine/shooting/shooting.h"
 #include "radiosity/engine/solving/method_option.h"
+#include "radiosity/engine/solving/own_options.h"
 
 #include <array>
 #include <stdexcept>
@@ -42,7 +43,7 @@ class EqualRays final : public Strategy {
 
 std::unique_ptr<Strategy> make_equal_rays(const SolverInput& input, const Hemisphere& hemisphere,
                                           const Workers&) {
-    return std::make_unique<EqualRays>(hemisphere, input.options.own.of<EqualRaysOptions>());
+    return std::make_unique<EqualRays>(hemisphere, own_options<EqualRaysOptions>(input.options));
 }
 
 constexpr std::array<std::uint32_t, 3> choices{0, 1, 2};
@@ -53,7 +54,7 @@ std::vector<MethodOption> options() {
 }
 
 void check(const SolveOptions& options, std::size_t) {
-    if (static_cast<int>(options.own.of<EqualRaysOptions>().coarser) > options.depth)
+    if (static_cast<int>(own_options<EqualRaysOptions>(options).coarser) > options.depth)
         throw std::invalid_argument("--coarser may not be more than --depth");
 }
 

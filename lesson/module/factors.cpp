@@ -3,9 +3,9 @@
 #include "module/calls.h"
 #include "module/room.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/factors/pairs/exchange_area.h"
+#include "radiosity/engine/factors/points/hemicube.h"
 #include "radiosity/engine/form_factors/exact_form_factors.h"
-#include "radiosity/engine/form_factors/exchange_area.h"
-#include "radiosity/engine/form_factors/hemicube.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/solving/solver.h"
 

@@ -1,6 +1,5 @@
 #include "module/own_strategy.h"
 
-#include "radiosity/paper/pages/share_line.h"
 #include "radiosity/paper/pages/step.h"
 
 #include <stdexcept>
@@ -12,7 +11,6 @@ namespace {
 using plain::Due;
 using plain::RayNumbers;
 using plain::Rays;
-using plain::ShareLine;
 using plain::Step;
 using plain::StepSolver;
 
@@ -66,13 +64,14 @@ class OwnStrategy final : public StepSolver {
     void shoot(const Due& due, Step& result) const {
         const Patch& patch = input_.mesh.patches()[due.patch];
         const Frame frame = input_.mesh.hemisphere_frame(due.patch);
-        ShareLine shares(due, input_.options.rays);
+        double all = 0, up_to = 0; // shares of rays
         for (const Triangle& t : triangles_[due.patch])
-            shares.add(t.rays);
-        for (std::uint32_t k = 0, number = 0; const Triangle& t : triangles_[due.patch]) {
-            const Rays N_tr = rules_.rounded ? shares.rounded(k) : shares.on_line(k);
+            all += t.rays;
+        for (std::uint32_t number = 0; const Triangle& t : triangles_[due.patch]) {
+            const double from = up_to / all, to = (up_to += t.rays) / all;
+            const Rays N_tr = rules_.rounded ? plain::rays_rounded(input_.options.rays * t.rays)
+                                             : plain::rays_on_line(due, from, to);
             const Vec3 Phi_ray = 1 / N_tr.divisor * t.power * result.unshot[due.patch];
-            ++k;
             for (std::uint64_t ray = 0; ray < N_tr.number; ++ray) {
                 RayNumbers random(due.key, number++);
                 const Vec3 direction = frame.to_world(t.cell->shape.sample_rejection(random));

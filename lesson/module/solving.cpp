@@ -3,13 +3,16 @@
 #include "module/calls.h"
 #include "module/own_strategy.h"
 #include "module/room.h"
+#include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/method_option.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/solution/solution.h"
 
 #include <span>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 using namespace hemilux;
 using namespace hemilux::lesson;
@@ -30,7 +33,7 @@ struct Run {
 };
 
 /// Sets options of the method from a text such as "--guide pyramid".
-void set_own(const Method& method, SolveOptions& options, std::string_view text) {
+void set_own_options(const Method& method, SolveOptions& options, std::string_view text) {
     if (text.empty())
         return;
     const std::string_view name = text.substr(0, text.find(' '));
@@ -67,11 +70,16 @@ LESSON_CALL bool run_new(const Room* room, const char* name, int page, double ra
             options.stop.steps = static_cast<std::uint32_t>(steps);
         else
             options.stop = method->default_stop;
-        set_own(*method, options, own);
+        set_own_options(*method, options, own);
         auto run = std::make_unique<Run>(*room, options);
-        run->solver = page ? method->plain(run->input()) : method->make(run->input());
-        if (options.stop.error)
-            run->solver->aim_at(*options.stop.error);
+        if (page) {
+            run->solver = method->plain(run->input());
+        } else {
+            auto solver = method->make(run->input());
+            if (options.stop.error)
+                solver->aim_at(*options.stop.error);
+            run->solver = std::move(solver);
+        }
         put(handle_of(run.release()));
     });
 }

@@ -31,6 +31,12 @@ struct Box {
     }
 };
 
+/// Returns whether two boxes have a point in common: they overlap, or touch.
+[[nodiscard]] inline bool meet(const Box& a, const Box& b) {
+    return glm::all(glm::lessThanEqual(a.low, b.high)) &&
+           glm::all(glm::lessThanEqual(b.low, a.high));
+}
+
 [[nodiscard]] inline Box box_of(std::span<const Vec3> points) {
     Box box;
     for (const Vec3& point : points)

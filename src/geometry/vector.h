@@ -1,7 +1,12 @@
 #pragma once
 // The vectors of the whole library have double precision. Floats are found in trees of boxes only.
 
-#include <glm/glm.hpp>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace hemilux {
 

@@ -1,7 +1,13 @@
 #include "parallel/workers.h"
 
+#include <algorithm>
+#include <atomic>
 #include <condition_variable>
+#include <exception>
+#include <mutex>
 #include <system_error>
+#include <thread>
+#include <vector>
 
 namespace hemilux {
 namespace {
@@ -24,7 +30,7 @@ bool holds_soon(const Condition& condition) {
 
 /// A call of work_together, which lives until no helper is inside.
 struct Job {
-    const std::function<void()>& work;
+    FunctionRef<void()> work;
     std::size_t wanted;                 ///< helpers that may still come
     std::atomic<std::size_t> inside{0}; ///< helpers
 };
@@ -124,10 +130,78 @@ class Pool {
 
 } // namespace
 
-void work_together(std::size_t helpers, const std::function<void()>& work) {
+void work_together(std::size_t helpers, FunctionRef<void()> work) {
     static Pool pool;
     Job job{work, helpers};
     pool.run(job);
+}
+
+Workers::Workers(unsigned threads)
+    : threads_(threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency())) {}
+
+void Workers::start() const {
+    for_chunks(threads_, 1, [](std::size_t, std::size_t) {});
+}
+
+void Workers::for_chunks(std::size_t count, std::size_t chunk,
+                         FunctionRef<void(std::size_t, std::size_t)> body) const {
+    const std::size_t chunks = (count + chunk - 1) / chunk;
+    std::atomic<std::size_t> next{0};
+    std::exception_ptr failure;
+    std::mutex failure_mutex;
+    const auto work = [&] {
+        try {
+            for (std::size_t c = next++; c < chunks; c = next++)
+                body(c * chunk, std::min(count, (c + 1) * chunk));
+        } catch (...) {
+            const std::lock_guard lock(failure_mutex);
+            if (!failure)
+                failure = std::current_exception();
+            next = chunks;
+        }
+    };
+    const std::size_t threads = std::min<std::size_t>(threads_, chunks);
+    if (threads > 1)
+        work_together(threads - 1, work);
+    else
+        work();
+    if (failure)
+        std::rethrow_exception(failure);
+}
+
+void Workers::for_takers(std::size_t count, std::size_t chunk,
+                         FunctionRef<void(TakeChunk)> body) const {
+    const std::size_t chunks = (count + chunk - 1) / chunk;
+    std::atomic<std::size_t> taken{0};
+    const auto take = [&](Chunk& next) {
+        const std::size_t c = taken++;
+        next = {c * chunk, std::min(count, (c + 1) * chunk)};
+        return c < chunks;
+    };
+    for_chunks(std::min<std::size_t>(threads_, chunks), 1,
+               [&](std::size_t, std::size_t) { body(take); });
+}
+
+void Workers::for_each_in_order(std::size_t count, FunctionRef<void(std::size_t)> body,
+                                FunctionRef<void(std::size_t)> take) const {
+    std::mutex mutex;
+    std::vector<bool> done(count);
+    std::size_t next = 0;
+    bool taking = false;
+    for_chunks(count, 1, [&](std::size_t k, std::size_t) {
+        body(k);
+        std::unique_lock lock(mutex);
+        done[k] = true;
+        if (taking)
+            return;
+        taking = true;
+        for (; next < count && done[next]; ++next) {
+            lock.unlock();
+            take(next);
+            lock.lock();
+        }
+        taking = false;
+    });
 }
 
 } // namespace hemilux

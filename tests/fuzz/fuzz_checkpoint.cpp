@@ -27,12 +27,12 @@ Scene one_triangle() {
 }
 
 /// A solver of each kind. They are made once: a state replaces all of the one before.
-std::vector<std::unique_ptr<Solver>> make_solvers() {
+std::vector<std::unique_ptr<EngineSolver>> make_solvers() {
     static const Mesh mesh(one_triangle());
     static const BruteForce tracer(mesh.soup());
     static const SolveOptions options{.threads = 1};
     static Monitor monitor;
-    std::vector<std::unique_ptr<Solver>> solvers;
+    std::vector<std::unique_ptr<EngineSolver>> solvers;
     for (const char* name : {"progressive-monte-carlo", "stored-transport"})
         solvers.push_back(
             find_method(name)->make({mesh, tracer, options, monitor, everything_needed}));
@@ -40,7 +40,7 @@ std::vector<std::unique_ptr<Solver>> make_solvers() {
 }
 
 void load(std::string_view state) {
-    static const std::vector<std::unique_ptr<Solver>> solvers = make_solvers();
+    static const std::vector<std::unique_ptr<EngineSolver>> solvers = make_solvers();
     for (const auto& solver : solvers)
         try {
             StateReader reader(state);

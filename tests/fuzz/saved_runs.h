@@ -2,6 +2,7 @@
 // The runs whose checkpoints are in corpus/checkpoint_sealed (make_checkpoints.sh).
 
 #include "radiosity/engine/shooting/additions.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/scene/scene.h"
 
 #include <utility>
@@ -30,7 +31,7 @@ inline std::vector<std::pair<const Method*, SolveOptions>> saved_runs() {
     for (const Guide* const guide : additions().guides)
         if (guide->name == "learned") {
             runs.emplace_back(find_method("hemisphere"), usual);
-            runs.back().second.own.of<GuideChoice>().guide = guide;
+            set_own_options(runs.back().second, GuideChoice{.guide = guide});
         }
     return runs;
 }

@@ -2,6 +2,7 @@
 // for every method, and what stands for chance in it is small.
 #include "geometry/compensated_sum.h"
 #include "radiosity/engine/solving/one_shot.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "support/catch.h"
 #include "support/layered_model.h"
 #include "support/scenes.h"
@@ -205,7 +206,7 @@ TEST_CASE("Progressive radiosity leaves hardly anything unshot in the end") {
         const Model model(open ? open_room(.9) : closed_room(.9));
         SolveOptions options;
         options.rays = 16;
-        options.own.of<OneShotOptions>().one_shot = false;
+        set_own_options(options, OneShotOptions{.one_shot = false});
         const Solution s = test::solve(model, *find_method("progressive"), options,
                                        {.steps = {}, .seconds = {}, .error = .1});
         CAPTURE(open, s.steps, share(s.energy.unshot, s.energy.emitted));

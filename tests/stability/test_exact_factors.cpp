@@ -1,6 +1,7 @@
 // `matrix` with exact factors where some pairs are hidden in part: what rays add must be right on
 // average, and its error as small as it is reported.
 #include "radiosity/engine/form_factors/factor_options.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "support/catch.h"
 #include "support/families/reliability.h"
 #include "support/solve.h"
@@ -35,7 +36,7 @@ Errors errors_of(const PreparedScene& scene, FactorKind kind) {
         options.seed = seed;
         options.rays = 64;
         options.threads = 2;
-        options.own.of<FactorOptions>().kind = kind;
+        set_own_options(options, FactorOptions{.kind = kind});
         Monitor monitor;
         const SolverInput input{scene.mesh(), scene.tracer(), options, monitor, scene.needs()};
         const auto solver = find_method("matrix")->make(input);

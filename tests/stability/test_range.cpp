@@ -4,6 +4,7 @@
 #include "radiosity/engine/form_factors/factor_options.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/one_shot.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "support/catch.h"
 #include "support/layered_model.h"
 #include "support/scenes.h"
@@ -58,7 +59,7 @@ Solution solved(const Model& model, const Method& method, double rays = 64) {
     options.rays = rays;
     options.threads = 1;
     const bool one_shot = method.name == "progressive"; // until the first pass has ended
-    options.own.of<OneShotOptions>().one_shot = one_shot;
+    set_own_options(options, OneShotOptions{.one_shot = one_shot});
     const Needs needs = find_needs(model.mesh);
     Monitor monitor;
     const SolverInput input{model.mesh, model.bvh, options, monitor, needs};
@@ -72,7 +73,7 @@ Solution solved(const Model& model, const Method& method, double rays = 64) {
 
 Solution exact(const Model& model) {
     SolveOptions options;
-    options.own.of<FactorOptions>().kind = FactorKind::exact;
+    set_own_options(options, FactorOptions{.kind = FactorKind::exact});
     return test::solve(model, *find_method("matrix"), options, test::steps(2));
 }
 

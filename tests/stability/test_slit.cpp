@@ -1,7 +1,7 @@
 // Two rooms joined by a slit of a thousandth of a wall, light in one of them: hardly any ray
 // passes, and all light of the other room does. The wall is a sheet with a face for each room.
 #include "geometry/horizon_clip.h"
-#include "radiosity/engine/form_factors/exchange_area.h"
+#include "radiosity/engine/factors/pairs/exchange_area.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "support/catch.h"
 #include "support/layered_model.h"

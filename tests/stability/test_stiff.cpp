@@ -1,6 +1,7 @@
 // Closed rooms that reflect nearly all: there the tail of the series of bounces is the solution,
 // and the smallest loss of energy between patches would be multiplied by 1 / (1 - rho).
 #include "radiosity/engine/form_factors/factor_options.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "support/catch.h"
 #include "support/layered_model.h"
 #include "support/scenes.h"
@@ -16,7 +17,7 @@ namespace {
 /// Without chance: in a convex room all factors are known.
 Solution exact_solution(const Model& model) {
     SolveOptions options;
-    options.own.of<FactorOptions>().kind = FactorKind::exact;
+    set_own_options(options, FactorOptions{.kind = FactorKind::exact});
     return test::solve(model, *find_method("matrix"), options, test::steps(1));
 }
 

@@ -57,7 +57,7 @@ struct Model {
 }
 
 /// Loads what `from` saves into `to`, which must take all of it; returns the state.
-inline std::string hand_over(const Solver& from, Solver& to) {
+inline std::string hand_over(const EngineSolver& from, EngineSolver& to) {
     StateWriter state;
     from.save(state);
     StateReader reader(state.bytes());

@@ -19,7 +19,7 @@ always holds: the way from one to the other is as wide as the way back. A large 
 its light to a small one.</p>`,
   source: {
     section: "2", sentence: "A form factor … represents the ratio of energy leaving one and arriving to the other.",
-    pages: ["src/geometry/polygon_sampler.h", "src/radiosity/paper/rays/shot.h", "src/radiosity/engine/form_factors/exchange_area.h"],
+    pages: ["src/geometry/polygon_sampler.h", "src/radiosity/paper/rays/shot.h", "src/radiosity/engine/factors/pairs/exchange_area.h"],
   },
   state: { distance: 1, tilt: 0, aside: 0, size: 1, rays: 200, eye: "0.55,0.12" },
   figure(f) {

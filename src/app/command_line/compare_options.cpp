@@ -8,6 +8,7 @@
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
 #include "io/files/text_words.h"
+#include "radiosity/engine/solving/method_option.h"
 
 #include <algorithm>
 #include <array>

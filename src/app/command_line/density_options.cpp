@@ -3,6 +3,7 @@
 #include "app/command_line/options.h"
 #include "app/settings/names.h"
 #include "radiosity/engine/shooting/additions.h"
+#include "radiosity/engine/solving/own_options.h"
 
 #include <algorithm>
 #include <array>
@@ -30,11 +31,12 @@ void add_dividing_guide(Command command, SolveOptions& options) {
         return;
     command.add_value(
         "--guide", joined(names, "|"), "what divides hemisphere's [density]",
-        [names, &guide = options.own.of<GuideChoice>().guide](const std::string& text) {
+        [names, &options](const std::string& text) {
             if (std::ranges::find(names, text) == names.end())
                 throw UsageError("--guide: " + unknown_name("choice", text, names));
             const auto found = std::ranges::find(additions().guides, text, &Guide::name);
-            guide = found == additions().guides.end() ? nullptr : *found;
+            const bool is_added = found != additions().guides.end();
+            set_own_options(options, GuideChoice{.guide = is_added ? *found : nullptr});
         });
 }
 

@@ -6,6 +6,7 @@
 #include "app/memory/memory.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
+#include "radiosity/engine/solving/method_option.h"
 
 #include <algorithm>
 #include <limits>

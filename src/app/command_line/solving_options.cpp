@@ -5,6 +5,7 @@
 #include "app/command_line/option_kinds.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
+#include "radiosity/engine/solving/method_option.h"
 
 #include <algorithm>
 

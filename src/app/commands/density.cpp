@@ -22,6 +22,7 @@
 #include "radiosity/answers/asked/text.h"
 #include "radiosity/engine/densities/subdivision_1997.h"
 #include "radiosity/engine/shooting/guide.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 
 #include <algorithm>
@@ -157,12 +158,12 @@ void check(const DensitySettings& settings) {
         throw UsageError("--patch, --rays and --plane are for .svg outputs, and there is none");
     check_own_options(settings.options, {&settings.method, 1});
     const bool has_parts = settings.method == &method_of(Role::forerunner);
-    const Guide* const guide = settings.options.own.of<GuideChoice>().guide;
+    const Guide* const guide = own_options<GuideChoice>(settings.options).guide;
     if (guide && settings.plane)
         throw UsageError("--plane shows rays that count, and --guide " + std::string(guide->name) +
                          " has none");
     const std::uint32_t parts =
-        has_parts ? settings.options.own.of<Subdivision1997Options>().parts : 1;
+        has_parts ? own_options<Subdivision1997Options>(settings.options).parts : 1;
     if (settings.part >= parts)
         throw UsageError(formatted("--part: there is no part %u; they are numbered from 0 to %u",
                                    settings.part, parts - 1));
@@ -180,7 +181,7 @@ double bytes_of_drawings(const DensitySettings& settings, double patches) {
     constexpr double per_patch = 32, per_triangle = 8000, per_ray = 1000, per_pixel = 36;
     constexpr double of_hemisphere = 4e6;
     const bool has_parts = settings.method == &method_of(Role::forerunner);
-    const Subdivision1997Options& own = settings.options.own.of<Subdivision1997Options>();
+    const Subdivision1997Options& own = own_options<Subdivision1997Options>(settings.options);
     double bytes = of_hemisphere + per_patch * patches;
     if (settings.method->bytes)
         bytes += settings.method->bytes(settings.options, patches);

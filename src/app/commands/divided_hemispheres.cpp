@@ -5,6 +5,7 @@
 #include "radiosity/engine/densities/subdivision_1997.h"
 #include "radiosity/engine/shooting/guide.h"
 #include "radiosity/engine/shooting/strategy.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/sampling/rng.h"
 
 namespace hemilux {
@@ -95,8 +96,9 @@ class Of1997 final : public DividedHemispheres {
   public:
     Of1997(const SolverInput& input, const Workers& workers)
         : seed_(input.options.seed),
-          subdivision_(input.mesh, input.needs, input.options.own.of<Subdivision1997Options>()) {
-        const Subdivision1997Options& numbers = input.options.own.of<Subdivision1997Options>();
+          subdivision_(input.mesh, input.needs,
+                       own_options<Subdivision1997Options>(input.options)) {
+        const Subdivision1997Options& numbers = own_options<Subdivision1997Options>(input.options);
         level_ = static_cast<int>(numbers.stored_steps + numbers.estimated_steps);
         subdivision_.find(level_, input.tracer, workers, input.monitor);
     }

@@ -3,6 +3,7 @@
 
 #include "app/settings/settings.h"
 #include "io/drawings/hemisphere_svg.h"
+#include "radiosity/paper/solving/solver.h"
 
 #include <cstdint>
 #include <memory>

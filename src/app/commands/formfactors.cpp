@@ -14,10 +14,11 @@
 #include "bvh/wide/wide_bvh.h"
 #include "io/results/factor_files.h"
 #include "radiosity/answers/asked/text.h"
+#include "radiosity/engine/factors/points/hemicube.h"
 #include "radiosity/engine/form_factors/exact_form_factors.h"
 #include "radiosity/engine/form_factors/factor_options.h"
-#include "radiosity/engine/form_factors/hemicube.h"
 #include "radiosity/engine/form_factors/matrix_quality.h"
+#include "radiosity/engine/solving/own_options.h"
 
 #include <algorithm>
 
@@ -53,7 +54,7 @@ void log_quality(Verbosity verbosity, const MatrixQuality& quality) {
 /// ways of each pair, the matrix, and for exact factors the list of all pairs.
 double bytes_of_factors(const FormFactorSettings& settings, double patches) {
     constexpr double per_hit = 64, per_pair = 80, per_pixel = 128, per_patch = 100;
-    const FactorOptions& factors = settings.options.own.of<FactorOptions>();
+    const FactorOptions& factors = own_options<FactorOptions>(settings.options);
     const double edge = factors.hemicube_edge, pixels = 3 * edge * edge;
     const bool by_cubes = factors.kind == FactorKind::hemicube;
     const double of_row = std::min(patches, by_cubes ? pixels : double(settings.rays));
@@ -79,7 +80,7 @@ void log_rays(Verbosity verbosity, std::size_t patches, std::uint64_t rays) {
 std::optional<Factors> by_hemicubes(const FormFactorSettings& settings, const Mesh& mesh,
                                     const Tracer& tracer, const Workers& workers,
                                     Monitor& monitor) {
-    const Hemicube cube(settings.options.own.of<FactorOptions>().hemicube_edge);
+    const Hemicube cube(own_options<FactorOptions>(settings.options).hemicube_edge);
     HemicubeFormFactors factors = hemicube_form_factors(cube, mesh, tracer, workers, monitor);
     if (monitor.interrupted)
         return std::nullopt;
@@ -101,7 +102,7 @@ std::optional<Factors> by_rays(const FormFactorSettings& settings, const Mesh& m
         const MatrixQuality quality = assess_matrix(matrix, mesh, samples.lost());
         return Factors{std::move(matrix), quality};
     };
-    if (settings.options.own.of<FactorOptions>().kind == FactorKind::rays)
+    if (own_options<FactorOptions>(settings.options).kind == FactorKind::rays)
         return assessed(samples.matrix());
     const ExactFormFactors exact(mesh, workers, monitor);
     if (monitor.interrupted)
@@ -116,7 +117,7 @@ std::optional<Factors> by_rays(const FormFactorSettings& settings, const Mesh& m
 
 int formfactors(const FormFactorSettings& settings) {
     const RunFiles files = check_files(settings.outputs, settings.scene.path);
-    const bool by_cubes = settings.options.own.of<FactorOptions>().kind == FactorKind::hemicube;
+    const bool by_cubes = own_options<FactorOptions>(settings.options).kind == FactorKind::hemicube;
     const OptionUse rays{"--rays", !by_cubes, "factors by rays"};
     warn_of_unused(settings.given, {&rays, 1}, settings.verbosity);
     Monitor monitor;

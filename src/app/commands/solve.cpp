@@ -9,7 +9,6 @@
 #include "app/gathering/lightmap_layout.h"
 #include "app/gathering/point_table.h"
 #include "app/gathering/shown_camera.h"
-#include "app/gathering/target_light.h"
 #include "app/lamps/lamp_light.h"
 #include "app/loading/load.h"
 #include "app/loading/reference.h"
@@ -29,6 +28,7 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/method_options.h"
 #include "app/terminal/log.h"
+#include "app/terminal/program_watcher.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/stage.h"
 #include "app/terminal/summary.h"
@@ -38,6 +38,7 @@
 #include "parallel/workers.h"
 #include "radiosity/answers/asked/text.h"
 #include "radiosity/answers/charts/charts.h"
+#include "radiosity/answers/gathering/light_of_patches.h"
 #include "radiosity/engine/emitters/lit_by_points.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/left_out.h"
@@ -45,6 +46,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <span>
 
 namespace hemilux {
@@ -244,8 +246,9 @@ Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference
     Monitor& monitor = problem.monitor;
     StopRule stop = stop_rule(settings, mesh.patches().size(), divided.sampling);
     UsefulPicture picture(settings, mesh, problem.tracer());
+    std::function<bool(const Solution&)> useful;
     if (settings.useful)
-        stop.useful = [&](const Solution& image) {
+        useful = [&](const Solution& image) {
             const double similarity = picture.similarity(image);
             log_line(settings.verbosity, Verbosity::verbose,
                      formatted("picture: similarity of %.4f to one without noise", similarity));
@@ -301,7 +304,7 @@ Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference
         show_last_row(done.solver->solution());
     }
     try {
-        done.completed = run(*done.solver, problem.input(), stop, after_step, before);
+        done.completed = run(*done.solver, problem.input(), stop, after_step, before, useful);
     } catch (const SolveError& error) {
         if (done.solver->solution().steps == 0)
             throw;
@@ -355,6 +358,16 @@ std::vector<NamedLayout> lightmap_layouts(const Problem& problem) {
     return layouts;
 }
 
+/// Adds what it took to gather the light of a target, and its error, which is that of the run.
+void add_target(Statistics& statistics, const Answer<Solution>& gathered) {
+    statistics.estimated_error = gathered.error.whole;
+    statistics.error_bound = gathered.error.bound;
+    statistics.estimated_error_uncertainty = gathered.error.uncertainty;
+    statistics.rays_learn += gathered.work.rays_learn;
+    statistics.rays_gather += gathered.work.rays_gather;
+    statistics.seconds_learn += gathered.work.seconds_learn;
+}
+
 /// The light of the outputs.
 struct GivenLight {
     GatheredLight gathered;
@@ -369,13 +382,12 @@ GivenLight give_light(const Problem& problem, Run& done, const Solution& solutio
     // Without a step, a file of the scene's own has the light of its lamps; values are not known.
     if (solution.steps == 0 && !settings.file_bake.asked)
         return {};
-    const std::span<const NamedPoint> points =
-        solution.steps > 0 ? problem.loaded.points : std::span<const NamedPoint>();
     const LitScene lit = lit_scene(problem, solution);
-    const bool gathers_here = gathers(settings) && settings.ranks->is_first();
+    const Asked asked = asked_of_gathers(settings, solution, statistics);
+    WantedLight wanted{.bake = settings.bake, .error_of_patches = statistics.estimated_error};
     std::vector<NamedLayout> layouts;
     GivenLight given;
-    if (gathers_here) {
+    if (gathers(settings) && settings.ranks->is_first()) {
         const OnThisRank works_alone(problem.monitor.interrupted);
         if (has_pictures(settings) && !done.camera)
             done.camera = shown_camera_of(settings.view, lit, settings.verbosity);
@@ -384,15 +396,22 @@ GivenLight give_light(const Problem& problem, Run& done, const Solution& solutio
             preview.begin_gathering(lit, solution, *done.camera);
         preview_lit_file(settings, lit, solution, problem.loaded.file_lightmap, layouts,
                          problem.monitor.interrupted.own().wished);
-        given.gathered =
-            gather_light(settings, lit, solution, points, done.camera.value_or(Camera()), layouts,
-                         problem.monitor, statistics, {},
-                         [&](const Image& rows, int count) { preview.show_rows(rows, count); });
+        if (solution.steps > 0)
+            wanted.points = wanted_points(problem.loaded.points);
+        wanted.lightmaps = layouts;
+        if (gathers_picture(settings))
+            wanted.picture = {*done.camera, settings.view.size, [&](const Image& rows, int count) {
+                                  preview.show_rows(rows, count);
+                              }};
+        ProgramWatcher watcher(settings.verbosity);
+        Gatherer gatherer(lit, solution, asked, problem.monitor, watcher);
+        given.gathered = gather(gatherer, wanted);
+        add_gathered(statistics, settings, given.gathered);
+        log_error_of_points(settings, given.gathered);
     }
-    given.lamps = find_lamp_light(settings,
-                                  {lit, *done.solver, solution, given.gathered,
-                                   problem.loaded.points, done.camera.value_or(Camera()), layouts},
-                                  problem.monitor, statistics);
+    given.lamps =
+        find_lamp_light(settings, {lit, *done.solver, solution, given.gathered, wanted, asked},
+                        problem.monitor, statistics);
     return given;
 }
 
@@ -454,10 +473,14 @@ int solve(Problem& problem, const Stopwatch& started) {
         problem.settings().ranks->is_first()) {
         const OnThisRank works_alone(problem.monitor.interrupted);
         const Stage stage("gathering the light of the target", problem.settings().verbosity);
-        of_target = *solution;
-        gather_target(problem.settings(), lit_scene(problem, *solution), *of_target,
-                      problem.monitor, statistics);
-        solution = &*of_target;
+        std::optional<Answer<Solution>> gathered = gather_patches(
+            lit_scene(problem, *solution), *solution,
+            asked_of_target(problem.settings(), *solution, statistics), problem.monitor);
+        if (gathered) {
+            add_target(statistics, *gathered);
+            of_target = std::move(gathered->value);
+            solution = &*of_target;
+        }
     }
     const GivenLight given = give_light(problem, done, *solution, statistics, preview);
     return write(problem, done, *solution, statistics, given, reference, started);

@@ -5,8 +5,8 @@
 #include "app/factors/factor_surfaces.h"
 #include "app/factors/sunlit_run.h"
 #include "app/settings/view_factor_settings.h"
-#include "radiosity/engine/point_views/point_factors.h"
-#include "radiosity/engine/view_factors/view_factors.h"
+#include "radiosity/engine/factors/points/point_factors.h"
+#include "radiosity/engine/factors/rows/view_factors.h"
 
 #include <span>
 

@@ -3,7 +3,7 @@
 
 #include "io/results/points.h"
 #include "io/results/view_factor_files.h"
-#include "radiosity/engine/point_views/point_factors.h"
+#include "radiosity/engine/factors/points/point_factors.h"
 
 #include <span>
 #include <string>

@@ -2,8 +2,8 @@
 
 #include "app/factors/factor_audit.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/factors/rows/open_views.h"
 #include "radiosity/engine/solving/time_limit.h"
-#include "radiosity/engine/view_factors/open_views.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 

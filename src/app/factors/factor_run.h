@@ -3,9 +3,9 @@
 
 #include "app/factors/factor_surfaces.h"
 #include "bvh/wide/wide_bvh.h"
-#include "radiosity/engine/point_views/point_factors.h"
-#include "radiosity/engine/view_factors/sky_bands.h"
-#include "radiosity/engine/view_factors/view_factors.h"
+#include "radiosity/engine/factors/points/point_factors.h"
+#include "radiosity/engine/factors/rows/sky_bands.h"
+#include "radiosity/engine/factors/rows/view_factors.h"
 
 #include <functional>
 #include <optional>

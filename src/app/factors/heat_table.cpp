@@ -10,7 +10,7 @@
 #include "io/files/text_words.h"
 #include "io/results/csv.h"
 #include "radiosity/answers/asked/text.h"
-#include "radiosity/engine/view_factors/row_rays.h"
+#include "radiosity/engine/factors/rows/row_rays.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "io/files/atomic_file.h"
 #include "io/results/csv.h"
 #include "parallel/workers.h"
-#include "radiosity/engine/point_views/sunlit.h"
+#include "radiosity/engine/factors/points/sunlit.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"

@@ -1,65 +1,44 @@
 #pragma once
-// The light of outputs for which it is gathered: pictures, lightmaps and points. It is learned
-// until its error is as asked for (light_cache.h), then gathered.
+// The light of outputs for which it is gathered: which light the settings want, and what the
+// statistics and the log say of it.
 
-#include "app/gathering/gather_rounds.h"
-#include "app/gathering/lightmap_layout.h"
-#include "app/rendering/view.h"
 #include "app/settings/settings.h"
 #include "io/results/points.h"
 #include "io/results/statistics.h"
-#include "radiosity/answers/images/image.h"
-#include "radiosity/answers/views/camera_rays.h"
-#include "radiosity/light/cached_light/light_cache.h"
-#include "radiosity/light/final_gather/light_at_points.h"
+#include "radiosity/answers/gathering/wanted_light.h"
 #include "radiosity/paper/solving/solver.h"
 
-#include <functional>
-#include <limits>
-#include <memory>
-#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 namespace hemilux {
-
-struct GatheredLight {
-    std::unique_ptr<LightCache> cache; ///< empty: nothing is gathered
-    std::vector<Sensor> sensors;       ///< by point of --points
-    LightAtPoints points;
-    /// Empty: none was asked for, or a signal left no row of it.
-    std::optional<Image> picture;
-    std::vector<Image> lightmaps;    ///< of the layouts; empty: none was asked for
-    std::vector<TargetLevel> levels; ///< of points, lightmaps and the picture, as far as asked for
-    /// The relative error, the largest of what is given out [-]; NaN where it is not known.
-    double error = std::numeric_limits<double>::quiet_NaN();
-};
-
-/// A lightmap to be gathered, of an object of this name or, without one, of all.
-struct NamedLayout {
-    std::string object;
-    LightmapLayout layout;
-};
 
 /// Returns whether any output shows gathered light.
 [[nodiscard]] bool gathers(const SolveSettings& settings);
 
-/// Returns whether lightmaps show gathered light.
+/// Returns whether pictures, and whether lightmaps show gathered light.
+[[nodiscard]] bool gathers_picture(const SolveSettings& settings);
 [[nodiscard]] bool gathers_lightmap(const SolveSettings& settings);
 
-/// Takes a picture of which so many rows, from the top, are gathered.
-using ShowRows = std::function<void(const Image& picture, int rows)>;
+/// Returns whether the light of the patches of a target is gathered, once a run is done.
+[[nodiscard]] bool gathers_target(const SolveSettings& settings);
 
-/// Learns the light, and gathers that of points. `camera` is that of pictures; `lightmaps` say
-/// where surfaces lie in each. Everything that is referred to must outlive the result. Enters the
-/// error into the statistics where only gathered light is given out. With `whole` the light is a
-/// part of that, and is as exact as that needs it. `show_rows` is called as the rows of the picture
-/// are gathered. A signal leaves what is gathered by then, and the light of the patches elsewhere.
-[[nodiscard]] GatheredLight
-gather_light(const SolveSettings& settings, const LitScene& scene, const Solution& solution,
-             std::span<const NamedPoint> points, const Camera& camera,
-             std::span<const NamedLayout> lightmaps, Monitor& monitor, Statistics& statistics,
-             const std::optional<WholeLight>& whole = {}, const ShowRows& show_rows = {});
+/// Returns what is asked of gathered light: the error, and the rays that --max-rays leaves after
+/// those of the solution and all that the statistics count.
+[[nodiscard]] Asked asked_of_gathers(const SolveSettings& settings, const Solution& solution,
+                                     const Statistics& statistics);
+
+/// Returns the same of the patches of a target.
+[[nodiscard]] Asked asked_of_target(const SolveSettings& settings, const Solution& solution,
+                                    const Statistics& statistics);
+
+[[nodiscard]] std::vector<WantedPoint> wanted_points(std::span<const NamedPoint> points);
+
+/// Adds what gathered light took. Where only gathered light is given out, its error is that of the
+/// run.
+void add_gathered(Statistics& statistics, const SolveSettings& settings,
+                  const GatheredLight& gathered);
+
+/// Logs the error of the light at points where the error of the run is that of other light.
+void log_error_of_points(const SolveSettings& settings, const GatheredLight& gathered);
 
 } // namespace hemilux

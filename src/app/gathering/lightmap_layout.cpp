@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <system_error>
@@ -377,14 +376,6 @@ double bytes_of_own_file(const SolveSettings& settings) {
     return settings.file_bake.asked && !error ? copies * static_cast<double>(size) : 0;
 }
 
-TexelMap texels_of(const LightmapLayout& layout, std::vector<PlacedTriangle> triangles,
-                   const Mesh& mesh, const Tracer& tracer) {
-    TexelMap texels(mesh, std::move(triangles), layout.size);
-    if (!layout.normals.empty())
-        texels.set_normals(layout.normals, tracer);
-    return texels;
-}
-
 FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
                               std::vector<PrimitiveOrigin> origins,
                               std::vector<std::string>& warnings) {
@@ -430,26 +421,6 @@ FileLightmap lightmap_of_file(const SolveSettings& settings, const Mesh& mesh,
     for (ObjectLightmap& part : found.parts)
         part.layout.normals = found.normals;
     return found;
-}
-
-void show_brighter_sides(const Mesh& mesh, const Solution& solution,
-                         std::vector<PlacedTriangle>& triangles) {
-    const Scene& scene = mesh.scene();
-    std::vector<double> of_side(2 * scene.facets.size()); // light by facet and side
-    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
-        const Patch& patch = mesh.patches()[i];
-        const Vec3 light = solution.radiosity[i] - mesh.material(patch).emission;
-        of_side[2 * std::size_t{patch.facet} + (patch.back ? 1 : 0)] +=
-            patch.area * (light.x + light.y + light.z);
-    }
-    std::map<std::uint32_t, double> more_behind; // by chart
-    for (const PlacedTriangle& triangle : triangles)
-        if (mesh.has_back(triangle.facet) && !triangle.second_half)
-            more_behind[triangle.chart] += of_side[2 * std::size_t{triangle.facet} + 1] -
-                                           of_side[2 * std::size_t{triangle.facet}];
-    for (PlacedTriangle& triangle : triangles)
-        if (const auto found = more_behind.find(triangle.chart); found != more_behind.end())
-            triangle.back = mesh.has_back(triangle.facet) && found->second > 0;
 }
 
 } // namespace hemilux

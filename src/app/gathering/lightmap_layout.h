@@ -4,24 +4,14 @@
 #include "app/settings/settings.h"
 #include "io/gltf/lit_source.h"
 #include "io/scene_files/lit_obj.h"
-#include "radiosity/answers/lightmaps/texel_map.h"
-#include "radiosity/paper/solution/solution.h"
+#include "radiosity/answers/lightmaps/lightmap_layout.h"
 
 #include <cstddef>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace hemilux {
-
-struct LightmapLayout {
-    std::vector<PlacedTriangle> triangles; ///< places in texels
-    int size = 0;                          ///< texels along a side
-    int margin = 0;                        ///< texels around charts that are filled
-    /// By facet, of FileLightmap; empty: texels have those of their facets.
-    std::span<const CornerNormals> normals = {};
-};
 
 /// A lightmap of an object of the file, or of all.
 struct ObjectLightmap {
@@ -41,11 +31,6 @@ struct FileLightmap {
     std::vector<ObjectLightmap> parts;
 };
 
-/// Returns the texels of a layout, whose triangles show these sides. Both must outlive it.
-[[nodiscard]] TexelMap texels_of(const LightmapLayout& layout,
-                                 std::vector<PlacedTriangle> triangles, const Mesh& mesh,
-                                 const Tracer& tracer);
-
 /// Finds the layout of `bake`, or of each object: the texture coordinates that the file has for it,
 /// or an atlas of our own, which is logged with what is wrong with those of the file. With several,
 /// the largest object has as many texels as are asked for, and others have them as dense. Throws
@@ -59,10 +44,5 @@ struct FileLightmap {
 /// Returns the bytes of the scene's own file while it is written again: its buffers, their copy and
 /// its JSON. They are 0 where it is not.
 [[nodiscard]] double bytes_of_own_file(const SolveSettings& settings);
-
-/// Lets the triangles of each chart show the brighter side of two-sided facets, by the light of the
-/// patches: a place in a lightmap has one light, and viewers show it on both sides.
-void show_brighter_sides(const Mesh& mesh, const Solution& solution,
-                         std::vector<PlacedTriangle>& triangles);
 
 } // namespace hemilux

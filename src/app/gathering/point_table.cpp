@@ -22,9 +22,10 @@ void check_distances(const std::string& path, std::span<const NamedPoint> points
 void write_points(const std::string& path, const Mesh& mesh, std::span<const NamedPoint> points,
                   const GatheredLight& gathered, const Workers& workers,
                   const csv::MoreColumns& more) {
-    if (gathered.sensors.size() < points.size()) // nothing was gathered
+    if (!gathered.points) // nothing was gathered
         throw Interrupted();
-    write_points_table(path, mesh, points, gathered.sensors, gathered.points.lights, workers, more);
+    const LightOfPoints& light = gathered.points->value;
+    write_points_table(path, mesh, points, light.sensors, light.found.lights, workers, more);
 }
 
 } // namespace hemilux

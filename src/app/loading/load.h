@@ -6,6 +6,7 @@
 #include "io/files/error.h"
 #include "io/scene_files/read_result.h"
 #include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/paper/scene/needs.h"
 #include "radiosity/paper/solution/solve_error.h"
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 #pragma once
 // The file of `bake` while its light is gathered, so that a viewer shows it at once.
 
-#include "app/gathering/gathered_light.h"
+#include "app/gathering/lightmap_layout.h"
+#include "radiosity/answers/pictures/lit_scene.h"
 
 #include <atomic>
 #include <span>

@@ -74,8 +74,9 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path,
     };
     report.attempt(lightmap_path(path), [&] {
         if (!results.gathered.lightmaps.empty())
-            return write_lightmap(settings, lightmap_path(path), results.gathered.lightmaps[0],
-                                  results.lamps.lamps, lightmaps_in(results.lamps, 0));
+            return write_lightmap(settings, lightmap_path(path),
+                                  results.gathered.lightmaps[0].value.image, results.lamps.lamps,
+                                  lightmaps_in(results.lamps, 0));
         const Image whole = image_of(light.of_class);
         std::vector<Image> of_lamps =
             of_each_layer(results, [&](const Mesh& lit, const Solution& own) {

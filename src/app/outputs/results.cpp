@@ -71,7 +71,7 @@ class Picture {
                      "interrupted; pictures show the light of the patches" +
                          squares_text(view_.size));
         Image image = results_.gathered.picture && gathers_
-                          ? *results_.gathered.picture
+                          ? results_.gathered.picture->value.image
                           : interpolated(scene, results_.solution);
         choose_exposure(view_, image, scene, camera_,
                         pixels_in_time(results_.monitor.interrupted.own().wished));
@@ -155,9 +155,11 @@ void write_gathered_file(const SolveSettings& settings, const std::string& path,
                          const Results& results, WriteReport& report) {
     if (results.gathered.lightmaps.empty())
         throw Interrupted();
-    write_lit_file(settings, path, results.mesh, results.file_lightmap, results.gathered.lightmaps);
-    write_lightmaps(settings, path, results.file_lightmap, results.gathered.lightmaps, report,
-                    results.lamps);
+    std::vector<Image> lightmaps;
+    for (const Answer<LightOfLightmap>& lightmap : results.gathered.lightmaps)
+        lightmaps.push_back(lightmap.value.image);
+    write_lit_file(settings, path, results.mesh, results.file_lightmap, lightmaps);
+    write_lightmaps(settings, path, results.file_lightmap, lightmaps, report, results.lamps);
 }
 
 void write_output(const SolveSettings& settings, const Output& output, const Results& results,
@@ -223,7 +225,7 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
     statistics.settings = settings.given;
     const Stopwatch writing;
     SharedClasses classes(results.mesh);
-    Picture picture(settings.view, settings.gather_pictures && results.gathered.cache, results,
+    Picture picture(settings.view, settings.gather_pictures && results.gathered.was_wanted, results,
                     classes);
     WriteReport report;
     if (!settings.points.output.empty())

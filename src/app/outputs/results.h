@@ -2,6 +2,7 @@
 // The files that a run leaves behind, as they were asked for.
 
 #include "app/gathering/gathered_light.h"
+#include "app/gathering/lightmap_layout.h"
 #include "app/lamps/lamp_light.h"
 #include "app/rendering/view.h"
 #include "app/report/run_data.h"

@@ -7,6 +7,8 @@
 #include "app/terminal/log.h"
 #include "io/files/error.h"
 #include "radiosity/engine/saving/state.h"
+#include "radiosity/engine/solving/engine_solver.h"
+#include "radiosity/engine/solving/method_option.h"
 
 #include <algorithm>
 
@@ -82,7 +84,7 @@ Before resume(const Checkpoint& checkpoint, const SolveSettings& settings, const
     const double density_now = solver.solution().seconds_density;
     try {
         StateReader state(checkpoint.state);
-        solver.load(state);
+        dynamic_cast<EngineSolver&>(solver).load(state); // pages are refused before
         state.expect_end();
     } catch (const StateError& error) {
         throw InputError(path, std::string("is a damaged checkpoint: ") + error.what());
@@ -123,7 +125,7 @@ void Checkpointer::write(const std::vector<StepRow>& rows, double seconds) {
     report_ = {};
     report_.attempt(path, [&] {
         StateWriter state;
-        solver_.save(state);
+        dynamic_cast<const EngineSolver&>(solver_).save(state);
         write_checkpoint(path,
                          {options_of(settings_), scene_, seconds, rows, std::move(state).bytes()});
     });

@@ -3,6 +3,7 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
 #include "radiosity/answers/asked/text.h"
+#include "radiosity/engine/solving/method_option.h"
 
 #include <algorithm>
 #include <cmath>

@@ -16,6 +16,7 @@
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/light/lamps/lamp_layers.h"
 #include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solving/solve_options.h"
 
 #include <cstdint>
 #include <functional>

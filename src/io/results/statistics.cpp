@@ -109,6 +109,11 @@ Json to_object(const Statistics& s) {
                                      {"rays", of.rays},
                                      {"estimated_error", of.error},
                                      {"error_bound", of.bound}});
+    for (const auto& [of, error] : s.answers)
+        object["answers"].push_back({{"of", of},
+                                     {"estimated_error", error.whole},
+                                     {"error_bound", error.bound},
+                                     {"error_local", error.local}});
     object["program"] = s.program;
     object["settings"] = settings(s.settings);
     return object;

@@ -2,6 +2,7 @@
 // The figures of a run, as the JSON object that other tools read (docs: the program's outputs).
 
 #include "parallel/ranks.h"
+#include "radiosity/answers/asked/answer.h"
 #include "radiosity/engine/solving/left_out.h"
 #include "radiosity/paper/solution/solution.h"
 
@@ -35,6 +36,12 @@ struct LayerFigures {
     std::string name;
     Vec3 emitted;     ///< by its lamps [W]
     double error = 0; ///< relative, of the layer by itself; NaN where it is not known
+};
+
+/// The error of what was gathered.
+struct AnswerFigures {
+    std::string of; ///< "points", "picture"
+    AnswerError error;
 };
 
 /// The error of an object of a lightmap, where each has its own.
@@ -100,6 +107,7 @@ struct Statistics {
     /// The figures of each rank, where there are several.
     std::vector<RankFigures> ranks = {};
     std::vector<ObjectFigures> objects = {}; ///< of the lightmap of --bake ao
+    std::vector<AnswerFigures> answers = {}; ///< in the JSON where there are any
     std::string program;                     ///< program with its version, whose defaults hold
     std::vector<GivenOption> settings;
 };

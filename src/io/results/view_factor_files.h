@@ -3,9 +3,9 @@
 // Their legend is in view_factor_legend.h.
 
 #include "io/files/provenance.h"
-#include "radiosity/engine/point_views/point_factors.h"
-#include "radiosity/engine/view_factors/sky_bands.h"
-#include "radiosity/engine/view_factors/view_factors.h"
+#include "radiosity/engine/factors/points/point_factors.h"
+#include "radiosity/engine/factors/rows/sky_bands.h"
+#include "radiosity/engine/factors/rows/view_factors.h"
 
 #include <cstdint>
 #include <span>

@@ -4,6 +4,7 @@
 #include "io/meshes/vtu.h"
 #include "radiosity/answers/charts/charts.h"
 #include "radiosity/answers/vertices/baked_light.h"
+#include "radiosity/engine/cells/refine.h"
 #include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -32,7 +33,7 @@ void refine_at_random(Mesh& mesh, std::uint64_t seed) {
         std::vector<std::uint8_t> levels;
         for (std::size_t i = 0; i < mesh.patches().size(); ++i)
             levels.push_back(rng.uniform() < 0.3 ? 2 : 0);
-        mesh.refine(levels);
+        refine(mesh, levels);
     }
 }
 
@@ -120,7 +121,7 @@ TEST_CASE("light passes on from a coarse patch to its finer neighbours, not over
     Mesh mesh(box_room({0, 0, 0}, {1, 1, 1}, 2, grey, {}));
     std::vector<std::uint8_t> levels(mesh.patches().size(), 0);
     levels[0] = 1; // of the floor
-    mesh.refine(levels);
+    refine(mesh, levels);
     std::vector<Vec3> light;
     for (const Patch& patch : mesh.patches())
         light.push_back(Vec3(patch.normal.y > 0.5 ? 1 + patch.centre.x : 100.0));
@@ -149,7 +150,7 @@ TEST_CASE("a point on a coarse patch's side has the mean of all around it, but n
     scene.groups = {"all"};
     add_quad(scene, {0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, 2, 1, 0);
     Mesh mesh(std::move(scene));
-    mesh.refine(std::vector<std::uint8_t>{0, 1});
+    refine(mesh, std::vector<std::uint8_t>{0, 1});
     std::vector<Vec3> light(mesh.patches().size(), Vec3(3));
     light[0] = Vec3(1);
     const CornerClasses classes = find_corner_classes(mesh);

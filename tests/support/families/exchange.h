@@ -2,7 +2,7 @@
 // What two polygons exchange, A F, for the references of hard scenes: in the open, and through
 // holes in thin walls. Nothing here traces a ray or draws a random number.
 
-#include "radiosity/engine/form_factors/exchange_area.h"
+#include "radiosity/engine/factors/pairs/exchange_area.h"
 
 #include <array>
 #include <cstdint>

@@ -42,6 +42,11 @@ struct Work {
         seconds_gather += other.seconds_gather;
         return *this;
     }
+    [[nodiscard]] friend Work operator-(const Work& all, const Work& before) {
+        return {all.rays_learn - before.rays_learn, all.rays_gather - before.rays_gather,
+                all.seconds_learn - before.seconds_learn,
+                all.seconds_gather - before.seconds_gather};
+    }
     [[nodiscard]] std::uint64_t rays() const { return rays_learn + rays_gather; }
 };
 

@@ -205,9 +205,9 @@ Vec3 radiosity_of(const Mesh& mesh, const SurfacePoint& at, const Vec3& irradian
     return emission + reflectance * irradiance;
 }
 
-GatheredLightmap gather_lightmap(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
-                                 const TexelMap& texels, const std::vector<bool>& covered,
-                                 const LightmapOptions& options, const Workers& workers) {
+GatheredLightmap gather_texels(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
+                               const TexelMap& texels, const std::vector<bool>& covered,
+                               const LightmapOptions& options, const Workers& workers) {
     PictureGather gather(mesh, tracer, light, grid_of(texels, covered, workers),
                          {.rays = options.rays,
                           .shadow_rays = std::max(2 * options.rays, min_shadow_rays),
@@ -225,6 +225,7 @@ GatheredLightmap gather_lightmap(const Mesh& mesh, const Tracer& tracer, const S
                         ? glm::vec3(radiosity_of(mesh, texels.point(texel), Vec3(irradiance)))
                         : irradiance;
             });
+    lightmap.traced = gather.rays();
     for (std::size_t k = 0; k < texels.index(0, lightmap.rows); ++k)
         lightmap.known[k] = texels.shows(k) && !covered[k];
     return lightmap;

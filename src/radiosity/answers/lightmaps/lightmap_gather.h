@@ -8,6 +8,7 @@
 #include "radiosity/answers/vertices/baked_light.h"
 #include "radiosity/light/cached_light/surface_light.h"
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -28,7 +29,8 @@ struct LightmapOptions {
 struct GatheredLightmap {
     Image image; ///< [W/m2]
     std::vector<bool> known;
-    int rows = 0; ///< finished, from the first
+    int rows = 0;             ///< finished, from the first
+    std::uint64_t traced = 0; ///< rays, but for those of paths that go on
 
     GatheredLightmap() = default;
     /// Makes a lightmap of which nothing is known.
@@ -39,11 +41,11 @@ struct GatheredLightmap {
 [[nodiscard]] Vec3 radiosity_of(const Mesh& mesh, const SurfacePoint& at, const Vec3& irradiance);
 
 /// Gathers the light of the texels that are not covered, row after row until check() ends it.
-[[nodiscard]] GatheredLightmap gather_lightmap(const Mesh& mesh, const Tracer& tracer,
-                                               const SurfaceLight& light, const TexelMap& texels,
-                                               const std::vector<bool>& covered,
-                                               const LightmapOptions& options,
-                                               const Workers& workers);
+[[nodiscard]] GatheredLightmap gather_texels(const Mesh& mesh, const Tracer& tracer,
+                                             const SurfaceLight& light, const TexelMap& texels,
+                                             const std::vector<bool>& covered,
+                                             const LightmapOptions& options,
+                                             const Workers& workers);
 
 /// Gives the rows that are not finished the light that patches send or receive.
 void complete_by_patches(GatheredLightmap& lightmap, const Mesh& mesh, const SurfaceLight& light,

@@ -95,6 +95,7 @@ RowsOfPicture GatheredPicture::render(const RowWork& work, const Workers& worker
     } catch (const Interrupted&) { // the rows before are finished
     }
     found.image = std::move(image_);
+    found.rays = gather_.rays();
     return found;
 }
 

@@ -73,6 +73,8 @@ class PictureGather {
     };
     /// Returns the light at each place, whose row is prepared. Several threads may call it.
     [[nodiscard]] std::vector<Light> irradiance(std::span<const Place> places) const;
+    /// Returns the rays so far, but for those of paths that go on.
+    [[nodiscard]] std::uint64_t rays() const { return in_parts_.rays(); }
     /// Returns the number of shadow rays of a pixel at the edge of a shadow.
     [[nodiscard]] unsigned shadow_rays() const { return of_sample() * options_.samples; }
 

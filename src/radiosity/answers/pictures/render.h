@@ -5,6 +5,7 @@
 #include "radiosity/answers/views/automatic_camera.h"
 #include "radiosity/answers/views/camera_rays.h"
 
+#include <cstdint>
 #include <functional>
 #include <span>
 
@@ -43,6 +44,7 @@ struct RenderOptions {
 struct RowsOfPicture {
     Image image;
     int rows = 0;
+    std::uint64_t rays = 0; ///< traced, but for those of paths that go on
 };
 
 /// Renders the linear radiosity seen through the camera; black where there is no surface. Throws

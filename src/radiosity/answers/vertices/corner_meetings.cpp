@@ -1,5 +1,6 @@
 #include "radiosity/answers/vertices/corner_meetings.h"
 
+#include "radiosity/engine/cells/patch_cells.h"
 #include "radiosity/engine/needs/welded_edges.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -55,8 +56,8 @@ class SideSearch {
         std::partial_sum(first_patch_.begin(), first_patch_.end(), first_patch_.begin());
     }
 
-    /// The sides that cells share are cut at their middles (patch_cells.h), and both cells have the
-    /// same bytes for them.
+    /// The sides that cells share are cut at their middles (engine/cells/patch_cells.h), and both
+    /// cells have the same bytes for them.
     void search_within_facets() {
         for (const Patch& patch : mesh_.patches())
             if (mesh_.is_divided(patch.facet)) {

@@ -1,6 +1,7 @@
 #include "radiosity/answers/vertices/indirect_light.h"
 
 #include "parallel/asked_to_end.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/paper/rays/patch_start.h"
 
 namespace hemilux {

@@ -145,7 +145,7 @@ void check_allocation(const Strategy& strategy, const Hemisphere& hemisphere, co
     }
     faults.add(std::abs(power - 1) <= rounding,
                "the cells of a patch have not all of its power, or some of it twice");
-    faults.add(std::abs(rays - 1) <= rounding * 100, "the shares of rays do not sum to 1");
+    faults.add(std::abs(rays - 1) <= 1e-9, "the shares of rays do not sum to 1");
 }
 
 void check_allocations(const Method& method, const Room& room, Faults& faults) {
@@ -173,7 +173,7 @@ Solution solve(const Method& method, const Room& room, const StopRule& stop, std
     options.stop = stop;
     Monitor monitor;
     const SolverInput input{room.mesh, *room.tracer, options, monitor};
-    const std::unique_ptr<Solver> solver = method.make(input);
+    const std::unique_ptr<EngineSolver> solver = method.make(input);
     run(*solver, input, stop);
     return solver->solution();
 }

@@ -180,7 +180,7 @@ void DensityMap::leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) c
     walk(
         counts_of(patch), [](std::uint16_t, std::uint8_t) {},
         [&](std::uint16_t cell, double mean) {
-            result.push_back({cell, static_cast<float>(mean)});
+            result.push_back({cell, mean});
         });
 }
 

@@ -26,7 +26,7 @@ enum class DensityStore { divided_only, everything };
 /// A triangle that is not divided, with the mean of its three vertex counts [surfaces per ray].
 struct DensityLeaf {
     std::uint16_t cell; ///< index of Hemisphere::cells()
-    float density;
+    double density;
 };
 
 /// Returns whether a triangle with this mean count [surfaces per ray] is divided, above the last

@@ -1,9 +1,9 @@
 #include "radiosity/engine/emitters/direct_light.h"
 
 #include "radiosity/engine/emitters/sample_patches.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/saving/state.h"
-#include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"

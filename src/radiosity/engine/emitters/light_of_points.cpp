@@ -2,9 +2,9 @@
 
 #include "geometry/polygon_sampler.h"
 #include "radiosity/engine/emitters/sample_patches.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/saving/state.h"
-#include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"

@@ -3,6 +3,7 @@
 #include "geometry/compensated_sum.h"
 #include "geometry/numeric.h"
 #include "radiosity/engine/emitters/light_of_points.h"
+#include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -18,8 +19,6 @@
 
 namespace hemilux {
 namespace {
-
-using MakeSolver = std::unique_ptr<Solver> (*)(const SolverInput&);
 
 /// The independent estimates of D, whose spread is its error.
 constexpr std::size_t estimates = 4;
@@ -74,13 +73,16 @@ Mesh lit_mesh(const Mesh& mesh, const LightOfPoints& points) {
     return lit;
 }
 
-class LitByPoints final : public Solver {
+class LitByPoints final : public EngineSolver {
   public:
-    LitByPoints(MakeSolver make, const SolverInput& input)
+    /// make(input) makes the method's solver.
+    template <class Make>
+    LitByPoints(Make make, const SolverInput& input)
         : input_(input), points_(sampled(input, traced_)),
           power_(power_of_points(input.mesh, input.tracer)), lit_(lit_mesh(input.mesh, points_)),
           solver_(
-              make({lit_, input.tracer, input.options, input.monitor, input.needs, input.target})) {
+              make({lit_, input.tracer, input.options, input.monitor, input.needs, input.target})),
+          planned_(dynamic_cast<EngineSolver*>(solver_.get())) {
         find_errors();
         take_solution();
     }
@@ -90,13 +92,20 @@ class LitByPoints final : public Solver {
         take_solution();
         return done;
     }
-    void aim_at(double error) override { solver_->aim_at(error); }
+    void aim_at(double error) override {
+        if (planned_)
+            planned_->aim_at(error);
+    }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
-    [[nodiscard]] std::uint32_t steps_ready() const override { return solver_->steps_ready(); }
+    [[nodiscard]] std::uint32_t steps_ready() const override {
+        return planned_ ? planned_->steps_ready() : 0;
+    }
     [[nodiscard]] bool finished() const override { return solver_->finished(); }
-    void save(StateWriter& state) const override { solver_->save(state); }
+    void save(StateWriter& state) const override {
+        planned_ ? planned_->save(state) : EngineSolver::save(state);
+    }
     void load(StateReader& state) override {
-        solver_->load(state);
+        planned_ ? planned_->load(state) : EngineSolver::load(state);
         take_solution();
     }
 
@@ -168,6 +177,7 @@ class LitByPoints final : public Solver {
     PowerOfPoints power_;
     Mesh lit_;
     std::unique_ptr<Solver> solver_;
+    EngineSolver* planned_;      ///< the same; null if it is a page
     std::vector<Vec3> variance_; ///< by patch [(W/m2)^2]
     Vec3 relative_{0.0};         ///< standard error of the first reflection of all patches
     Solution solution_;
@@ -176,7 +186,9 @@ class LitByPoints final : public Solver {
 } // namespace
 
 std::unique_ptr<Solver> make_solver(const Method& method, const SolverInput& input, bool plain) {
-    const MakeSolver make = plain ? method.plain : method.make;
+    const auto make = [&](const SolverInput& of) -> std::unique_ptr<Solver> {
+        return plain ? method.plain(of) : method.make(of);
+    };
     if (point_emitters_of(input.mesh.scene()).empty() || (method.takes_points && !plain))
         return make(input);
     return std::make_unique<LitByPoints>(make, input);

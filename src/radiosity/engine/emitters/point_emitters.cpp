@@ -1,8 +1,8 @@
 #include "radiosity/engine/emitters/point_emitters.h"
 
 #include "geometry/numeric.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/engine/sampling/sobol.h"
-#include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>

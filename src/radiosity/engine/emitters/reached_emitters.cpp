@@ -1,7 +1,7 @@
 #include "radiosity/engine/emitters/reached_emitters.h"
 
 #include "radiosity/engine/emitters/small_emitters.h"
-#include "radiosity/engine/form_factors/point_to_patch.h"
+#include "radiosity/engine/factors/pairs/point_to_patch.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <utility>

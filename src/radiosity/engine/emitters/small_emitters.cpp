@@ -1,8 +1,8 @@
 #include "radiosity/engine/emitters/small_emitters.h"
 
 #include "geometry/polygon_sampler.h"
-#include "radiosity/engine/form_factors/pair_factor.h"
-#include "radiosity/engine/form_factors/point_to_patch.h"
+#include "radiosity/engine/factors/pairs/pair_factor.h"
+#include "radiosity/engine/factors/pairs/point_to_patch.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"

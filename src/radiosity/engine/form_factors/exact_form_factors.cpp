@@ -1,7 +1,7 @@
 #include "radiosity/engine/form_factors/exact_form_factors.h"
 
 #include "geometry/box.h"
-#include "radiosity/engine/form_factors/exchange_area.h"
+#include "radiosity/engine/factors/pairs/exchange_area.h"
 #include "radiosity/engine/rays/panes.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"

@@ -12,7 +12,7 @@
 // The matrix stores S before it is scaled, so that the S of several batches is their mean.
 
 #include "parallel/ranks.h"
-#include "radiosity/engine/form_factors/escape_fraction.h"
+#include "radiosity/engine/factors/rows/escape_fraction.h"
 #include "radiosity/engine/form_factors/ray_counts.h"
 #include "radiosity/engine/sampling/sampling_kernels.h"
 #include "radiosity/engine/sparse/sparse_rows.h"

@@ -1,7 +1,9 @@
 #include "radiosity/engine/form_factors/factor_options.h"
 
+#include "radiosity/engine/factors/points/hemicube.h"
 #include "radiosity/engine/form_factors/exact_form_factors.h"
-#include "radiosity/engine/form_factors/hemicube.h"
+#include "radiosity/engine/solving/method_option.h"
+#include "radiosity/engine/solving/own_options.h"
 
 #include <array>
 #include <charconv>
@@ -15,7 +17,6 @@ constexpr std::array<std::string_view, 3> kind_names{"rays", "exact", "hemicube"
 constexpr std::string_view with_edge = "hemicube:";
 
 bool set_factors(SolveOptions& options, std::string_view text) {
-    auto& factors = options.own.of<FactorOptions>();
     if (text.starts_with(with_edge)) {
         const std::string_view number = text.substr(with_edge.size());
         std::uint32_t edge = 0;
@@ -24,18 +25,19 @@ bool set_factors(SolveOptions& options, std::string_view text) {
         if (error != std::errc() || end != number.data() + number.size() ||
             !Hemicube::is_edge(edge))
             throw std::invalid_argument("hemicube:N with an even N from 2 to 1024");
-        factors = {FactorKind::hemicube, edge};
+        set_own_options(options, FactorOptions{FactorKind::hemicube, edge});
         return true;
     }
     const auto found = std::ranges::find(kind_names, text);
     if (found == kind_names.end())
         return false;
-    factors = {.kind = static_cast<FactorKind>(found - kind_names.begin())};
+    set_own_options(options,
+                    FactorOptions{.kind = static_cast<FactorKind>(found - kind_names.begin())});
     return true;
 }
 
 std::string factors_text(const SolveOptions& options) {
-    const auto& factors = options.own.of<FactorOptions>();
+    const auto& factors = own_options<FactorOptions>(options);
     if (factors.kind == FactorKind::hemicube &&
         factors.hemicube_edge != FactorOptions().hemicube_edge)
         return std::string(with_edge) + std::to_string(factors.hemicube_edge);
@@ -43,7 +45,7 @@ std::string factors_text(const SolveOptions& options) {
 }
 
 bool is_exact(const SolveOptions& options) {
-    return options.own.of<FactorOptions>().kind == FactorKind::exact;
+    return own_options<FactorOptions>(options).kind == FactorKind::exact;
 }
 
 } // namespace
@@ -91,7 +93,7 @@ void check_exact(const SolveOptions& options, std::size_t patches) {
 }
 
 void adapt_to_factors(MethodWork& work, const SolveOptions& options) {
-    if (options.own.of<FactorOptions>().kind != FactorKind::hemicube)
+    if (own_options<FactorOptions>(options).kind != FactorKind::hemicube)
         return;
     work.pairs = work.passes = false;
     work.estimates_error = false;

@@ -1,7 +1,7 @@
 #pragma once
 // Measures how well a matrix of form factors obeys what all form factors obey.
 
-#include "radiosity/engine/form_factors/escape_fraction.h"
+#include "radiosity/engine/factors/rows/escape_fraction.h"
 #include "radiosity/engine/sparse/sparse_matrix.h"
 
 #include <cstdint>

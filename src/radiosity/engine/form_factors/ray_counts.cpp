@@ -1,5 +1,6 @@
 #include "radiosity/engine/form_factors/ray_counts.h"
 
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/engine/solving/shared_stop.h"

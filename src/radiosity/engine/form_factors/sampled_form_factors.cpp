@@ -1,6 +1,6 @@
 #include "radiosity/engine/form_factors/sampled_form_factors.h"
 
-#include "radiosity/engine/form_factors/point_to_patch.h"
+#include "radiosity/engine/factors/pairs/point_to_patch.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"

@@ -12,7 +12,7 @@
 
 #include "bvh/tracer.h"
 #include "parallel/workers.h"
-#include "radiosity/engine/form_factors/escape_fraction.h"
+#include "radiosity/engine/factors/rows/escape_fraction.h"
 #include "radiosity/engine/form_factors/ray_counts.h"
 #include "radiosity/engine/sparse/sparse_matrix.h"
 #include "radiosity/paper/scene/needs.h"

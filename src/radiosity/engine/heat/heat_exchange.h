@@ -12,7 +12,7 @@
 // same linear system; how such samples spread is the standard error.
 
 #include "parallel/workers.h"
-#include "radiosity/engine/view_factors/view_factors.h"
+#include "radiosity/engine/factors/rows/view_factors.h"
 
 #include <array>
 #include <cstdint>

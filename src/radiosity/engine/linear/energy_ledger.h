@@ -6,7 +6,7 @@
 // backs of faces. A share that was counted as none or as all is not known for certain. Its variance
 // is that of a Beta distribution that has seen the counts (Laplace's rule of succession), never 0.
 
-#include "radiosity/engine/form_factors/escape_fraction.h"
+#include "radiosity/engine/factors/rows/escape_fraction.h"
 #include "radiosity/paper/solution/solution.h"
 
 #include <cstdint>

@@ -1,8 +1,10 @@
 #include "radiosity/engine/linear/hemicube_matrix.h"
 
+#include "radiosity/engine/factors/points/hemicube.h"
 #include "radiosity/engine/form_factors/factor_options.h"
-#include "radiosity/engine/form_factors/hemicube.h"
 #include "radiosity/engine/linear/radiosity_system.h"
+#include "radiosity/engine/solving/engine_solver.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/solve_error.h"
 #include "radiosity/paper/solving/check_input.h"
@@ -17,7 +19,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-class HemicubeMatrix final : public Solver {
+class HemicubeMatrix final : public EngineSolver {
   public:
     explicit HemicubeMatrix(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)) {
@@ -26,7 +28,7 @@ class HemicubeMatrix final : public Solver {
 
     bool step() override {
         const Workers workers(input_.options.threads);
-        const Hemicube cube(input_.options.own.of<FactorOptions>().hemicube_edge);
+        const Hemicube cube(own_options<FactorOptions>(input_.options).hemicube_edge);
         input_.monitor.phase = "hemicubes";
         const HemicubeFormFactors factors =
             hemicube_form_factors(cube, input_.mesh, input_.tracer, workers, input_.monitor);
@@ -106,7 +108,7 @@ class HemicubeMatrix final : public Solver {
 
 } // namespace
 
-std::unique_ptr<Solver> make_hemicube_matrix(const SolverInput& input) {
+std::unique_ptr<EngineSolver> make_hemicube_matrix(const SolverInput& input) {
     return std::make_unique<HemicubeMatrix>(input);
 }
 

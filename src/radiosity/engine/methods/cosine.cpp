@@ -17,7 +17,7 @@ class Cosine final : public Strategy {
   public:
     Allocation allocate(std::uint32_t, AllocatedCells&) const override {
         static constexpr std::uint16_t cell = whole_hemisphere;
-        static constexpr float all_rays = 1;
+        static constexpr double all_rays = 1;
         return {{&cell, 1}, {&all_rays, 1}};
     }
 };

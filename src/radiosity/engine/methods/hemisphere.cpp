@@ -19,6 +19,8 @@
 #include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/shooting/shooting.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/method_option.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -157,12 +159,12 @@ bool set_guide(SolveOptions& options, std::string_view name) {
     const auto found = std::ranges::find(guides, name, &Guide::name);
     if (found == guides.end() && name != counted_densities)
         return false;
-    options.own.of<GuideChoice>().guide = found == guides.end() ? nullptr : *found;
+    set_own_options(options, GuideChoice{.guide = found == guides.end() ? nullptr : *found});
     return true;
 }
 
 std::string name_of_guide(const SolveOptions& options) {
-    const Guide* const guide = options.own.of<GuideChoice>().guide;
+    const Guide* const guide = own_options<GuideChoice>(options).guide;
     return std::string(guide ? guide->name : counted_densities);
 }
 

@@ -33,6 +33,8 @@
 #include "radiosity/engine/shooting/shooting.h"
 #include "radiosity/engine/shooting/step_hook.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/method_option.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/hemisphere/density_direction.h"
 #include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -51,7 +53,7 @@ class Hemisphere1997 final : public Strategy, StepHook, PrivateCells {
   public:
     Hemisphere1997(const SolverInput& input, const Workers& workers)
         : input_(input), workers_(workers), printed_(input.options.literal),
-          numbers_(input.options.own.of<Subdivision1997Options>()),
+          numbers_(own_options<Subdivision1997Options>(input.options)),
           subdivision_(input.mesh, input.needs, numbers_) {
         if (!printed_)
             find(static_cast<int>(numbers_.stored_steps)); // later steps will find no more
@@ -136,11 +138,11 @@ std::vector<MethodOption> options() {
 }
 
 void check(const SolveOptions& options, std::size_t) {
-    Subdivision1997::check(options.own.of<Subdivision1997Options>());
+    Subdivision1997::check(own_options<Subdivision1997Options>(options));
 }
 
 double bytes(const SolveOptions& options, double patches) {
-    return patches * Subdivision1997::bytes_of_patch(options.own.of<Subdivision1997Options>());
+    return patches * Subdivision1997::bytes_of_patch(own_options<Subdivision1997Options>(options));
 }
 
 } // namespace
@@ -154,7 +156,11 @@ extern const Method hemisphere_1997_method{
     .make = shoot_with<make_hemisphere_1997, true>,
     .strategy = make_hemisphere_1997,
     .work = {.densities = true, .passes = true},
-    .plain = plain::hemisphere_1997,
+    .plain =
+        [](const SolverInput& input) {
+            return plain::hemisphere_1997(input,
+                                          own_options<Subdivision1997Options>(input.options));
+        },
     .role = Role::forerunner,
     .aims = has_aimer,
     .options = options,

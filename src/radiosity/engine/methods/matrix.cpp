@@ -23,7 +23,10 @@
 #include "radiosity/engine/linear/gmres.h"
 #include "radiosity/engine/linear/hemicube_matrix.h"
 #include "radiosity/engine/linear/surfaces.h"
+#include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/method_option.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -63,13 +66,13 @@ std::vector<std::uint32_t> few_emitters(const Mesh& mesh) {
     return emitters;
 }
 
-class MatrixSolver final : public Solver {
+class MatrixSolver final : public EngineSolver {
   public:
     explicit MatrixSolver(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
           batches_(input, batches, solution_), surfaces_(input.mesh) {
         const std::vector<std::uint32_t> emitters = few_emitters(input.mesh);
-        if (input.options.own.of<FactorOptions>().kind == FactorKind::exact)
+        if (own_options<FactorOptions>(input.options).kind == FactorKind::exact)
             exact_.emplace(input.mesh, workers_, input.monitor);
         rays_find_emission_ = emitters.empty();
         // Exact factors are put together with those of all patches.
@@ -235,8 +238,8 @@ class MatrixSolver final : public Solver {
     std::uint64_t traced_ = 0;
 };
 
-std::unique_ptr<Solver> make_matrix(const SolverInput& input) {
-    if (input.options.own.of<FactorOptions>().kind == FactorKind::hemicube)
+std::unique_ptr<EngineSolver> make_matrix(const SolverInput& input) {
+    if (own_options<FactorOptions>(input.options).kind == FactorKind::hemicube)
         return make_hemicube_matrix(input);
     return std::make_unique<MatrixSolver>(input);
 }
@@ -253,7 +256,7 @@ double bytes_of_solvers(const SolveOptions& options, double patches) {
 }
 
 double bytes(const SolveOptions& options, double patches) {
-    const auto& factors = options.own.of<FactorOptions>();
+    const auto& factors = own_options<FactorOptions>(options);
     if (factors.kind == FactorKind::hemicube)
         return bytes_per_factor * patches *
                std::min(patches, 3.0 * factors.hemicube_edge * factors.hemicube_edge);

@@ -21,6 +21,7 @@
 
 #include "geometry/frame.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/engine/sampling/largest_first.h"
 #include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/shooting/stepwise.h"
@@ -180,7 +181,7 @@ class MonteCarloSolver final : public StepwiseSolver {
 };
 
 /// A solver that takes the first step of the same, and whose steps are its shots.
-class OneShotSolver final : public Solver {
+class OneShotSolver final : public EngineSolver {
   public:
     explicit OneShotSolver(const SolverInput& input)
         : input_(input), mean_(input, true), start_(mean_.solution),
@@ -234,7 +235,7 @@ class OneShotSolver final : public Solver {
     std::optional<Shots> shots_; ///< empty before the pilot
 };
 
-std::unique_ptr<Solver> make_monte_carlo(const SolverInput& input) {
+std::unique_ptr<EngineSolver> make_monte_carlo(const SolverInput& input) {
     if (is_one_shot(input.options))
         return std::make_unique<OneShotSolver>(input);
     return std::make_unique<MonteCarloSolver>(input);

@@ -32,15 +32,18 @@
 
 #include "geometry/elementary.h"
 #include "radiosity/engine/form_factors/factor_options.h"
+#include "radiosity/engine/progressive/progressive_options.h"
 #include "radiosity/engine/progressive/progressive_pass.h"
+#include "radiosity/engine/solving/engine_solver.h"
+#include "radiosity/engine/solving/method_option.h"
 #include "radiosity/engine/solving/one_shot.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/scene/alike_neighbours.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/error_spread.h"
 #include "radiosity/paper/solution/solve_error.h"
 #include "radiosity/paper/solving/check_input.h"
-#include "radiosity/paper/solving/progressive_options.h"
 
 #include <algorithm>
 #include <limits>
@@ -59,12 +62,12 @@ constexpr double rays_per_light_unit = 2, growth_of_passes = 4;
 /// four sets of points, and what becomes of the light later is guessed from the mean reflectance.
 constexpr double samples_of_error = 9;
 
-class ProgressiveSolver final : public Solver {
+class ProgressiveSolver final : public EngineSolver {
   public:
     explicit ProgressiveSolver(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)),
           is_one_shot_(is_one_shot(input.options)),
-          by_hemicubes_(input.options.own.of<FactorOptions>().kind == FactorKind::hemicube),
+          by_hemicubes_(own_options<FactorOptions>(input.options).kind == FactorKind::hemicube),
           pass_(input) {
         solution_.error_batches = samples_of_error;
         pass_.begin(rays_per_light());
@@ -209,7 +212,11 @@ extern const Method progressive_method{
     .default_stop = {.steps = {}, .seconds = {}, .error = .01},
     .make = make_solver_of<ProgressiveSolver>,
     .work = {.pairs = true},
-    .plain = plain::progressive,
+    .plain =
+        [](const SolverInput& input) {
+            return plain::progressive(input,
+                                      own_options<ProgressiveOptions>(input.options).ambient);
+        },
     .options = options,
     .adapt = adapt,
 };

@@ -25,6 +25,7 @@
 #include "radiosity/engine/linear/unsolved_light.h"
 #include "radiosity/engine/saving/solution_state.h"
 #include "radiosity/engine/saving/state.h"
+#include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/relighting.h"
 #include "radiosity/engine/solving/run.h"
@@ -65,7 +66,7 @@ constexpr double bytes_per_ray = 16;
 /// errors, the plan of its rays.
 constexpr double bytes_per_patch = 1300;
 
-class StoredTransportSolver final : public Solver, public KeepsRays {
+class StoredTransportSolver final : public EngineSolver, public KeepsRays {
   public:
     explicit StoredTransportSolver(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),

@@ -1,8 +1,9 @@
 #include "radiosity/engine/progressive/progressive_pass.h"
 
 #include "geometry/elementary.h"
+#include "radiosity/engine/factors/pairs/pair_factor.h"
 #include "radiosity/engine/form_factors/factor_options.h"
-#include "radiosity/engine/form_factors/pair_factor.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -98,15 +99,15 @@ double mean_reflected(const Mesh& mesh) {
 } // namespace
 
 ProgressivePass::ProgressivePass(const SolverInput& input)
-    : input_(input), options_(input.options.own.of<ProgressiveOptions>()),
+    : input_(input), options_(own_options<ProgressiveOptions>(input.options)),
       emitted_(emitted_power(input.mesh)), brightest_(input.mesh.patches().size()),
       balance_(input.needs.closed), factors_(input, mean_reflected(input.mesh)),
       hits_(input.mesh.patches().size()) {
     const ReflectingArea reflecting(input.mesh);
     reflecting_area_ = reflecting.area;
     mean_reflectance_ = reflecting.mean_reflectance;
-    if (input.options.own.of<FactorOptions>().kind == FactorKind::hemicube)
-        hemicube_.emplace(input.options.own.of<FactorOptions>().hemicube_edge);
+    if (own_options<FactorOptions>(input.options).kind == FactorKind::hemicube)
+        hemicube_.emplace(own_options<FactorOptions>(input.options).hemicube_edge);
 }
 
 void ProgressivePass::begin(double rays_per_light) {

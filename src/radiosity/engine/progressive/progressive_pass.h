@@ -11,10 +11,10 @@
 
 #include "geometry/compensated_sum.h"
 #include "radiosity/engine/progressive/estimate.h"
+#include "radiosity/engine/progressive/progressive_options.h"
 #include "radiosity/engine/progressive/shot_balance.h"
 #include "radiosity/engine/progressive/shot_factors.h"
 #include "radiosity/engine/sampling/largest_first.h"
-#include "radiosity/paper/solving/progressive_options.h"
 #include "radiosity/paper/solving/solver.h"
 
 #include <cstdint>

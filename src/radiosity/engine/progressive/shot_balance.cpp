@@ -1,9 +1,9 @@
 #include "radiosity/engine/progressive/shot_balance.h"
 
 #include "bvh/tracer.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/paper/rays/patch_start.h"
-#include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/scene/needs.h"
 

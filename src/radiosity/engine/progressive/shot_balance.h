@@ -7,7 +7,7 @@
 // made between patches, which in bright rooms would be made again in each bounce. Where much
 // depends on pairs that are looked at by chance, factors are left as they are, right on average.
 
-#include "radiosity/engine/form_factors/escape_fraction.h"
+#include "radiosity/engine/factors/rows/escape_fraction.h"
 
 #include <cstdint>
 

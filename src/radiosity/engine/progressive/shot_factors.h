@@ -4,8 +4,8 @@
 // shooter's hemicube (hemicube.h).
 
 #include "parallel/workers.h"
-#include "radiosity/engine/form_factors/hemicube.h"
-#include "radiosity/engine/form_factors/pair_factor.h"
+#include "radiosity/engine/factors/pairs/pair_factor.h"
+#include "radiosity/engine/factors/points/hemicube.h"
 #include "radiosity/engine/progressive/shot_balance.h"
 #include "radiosity/paper/solving/solver.h"
 

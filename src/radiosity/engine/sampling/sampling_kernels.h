@@ -63,8 +63,8 @@ struct CellShapes {
 /// the patch's cells follow each other by running sums.
 struct PatchOnLine {
     double before, after; ///< places where it begins and ends
-    double rays;          ///< rays for one unit of the sums
-    float all;            ///< the largest sum: cells that end there own all that is left
+    double rays;          ///< after - before: rays for one unit of the sums
+    double all;           ///< the largest sum: cells that end there own all that is left
 };
 
 /// How words of 32 bits hold the entries of a sparse matrix (entry_words.h).
@@ -98,7 +98,7 @@ struct SamplingKernels {
                         std::uint64_t* places);
     /// Finds in last[k + 1] the last ray before the end of cell k, of at most 64 cells. The caller
     /// gives last[0], the last ray before them all. Returns a bit for each cell that has rays.
-    std::uint64_t (*last_rays)(const PatchOnLine&, std::size_t count, const float* up_to,
+    std::uint64_t (*last_rays)(const PatchOnLine&, std::size_t count, const double* up_to,
                                std::int64_t* last);
     /// Draws four independent numbers, uniform in (0,1), for each sample and attempt.
     void (*random)(const RandomKeys&, std::size_t count, std::uint32_t attempt, double* a,

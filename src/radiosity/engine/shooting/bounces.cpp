@@ -1,5 +1,6 @@
 #include "radiosity/engine/shooting/bounces.h"
 
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/engine/shooting/systematic_cells.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"

@@ -4,6 +4,7 @@
 
 #include "radiosity/engine/densities/density.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/own_options.h"
 
 #include <memory>
 #include <string_view>
@@ -29,7 +30,7 @@ struct GuideChoice {
 
 /// Returns the guide of the options; with `literal` it is the density.
 [[nodiscard]] inline const Guide* guide_of(const SolveOptions& options) {
-    return options.literal ? nullptr : options.own.of<GuideChoice>().guide;
+    return options.literal ? nullptr : own_options<GuideChoice>(options).guide;
 }
 
 } // namespace hemilux

@@ -5,9 +5,9 @@
 
 #include "bvh/tracer.h"
 #include "geometry/vector.h"
+#include "parallel/function_ref.h"
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -39,7 +39,7 @@ class SeparateRays {
     /// when interrupted, they may not be whole.
     virtual void shoot(const SolverInput& input, const BouncePower& bounce, std::uint64_t stream,
                        const Workers& workers,
-                       const std::function<void(const SeparateShots&)>& collect) const = 0;
+                       FunctionRef<void(const SeparateShots&)> collect) const = 0;
 };
 
 } // namespace hemilux

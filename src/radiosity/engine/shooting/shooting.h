@@ -34,7 +34,7 @@ class ShootingSolver final : public StepwiseSolver {
 /// Makes the solver of a strategy, for Method::make. With `has_literal`, the option --literal
 /// chooses its rules; without it they are the unbiased ones.
 template <MakeStrategy make_strategy, bool has_literal = false>
-[[nodiscard]] std::unique_ptr<Solver> shoot_with(const SolverInput& input) {
+[[nodiscard]] std::unique_ptr<EngineSolver> shoot_with(const SolverInput& input) {
     return std::make_unique<ShootingSolver>(
         input, make_strategy, has_literal ? shooting_rules(input.options) : ShootingRules{});
 }

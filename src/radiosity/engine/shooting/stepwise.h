@@ -5,6 +5,7 @@
 #include "parallel/workers.h"
 #include "radiosity/engine/shooting/aimer.h"
 #include "radiosity/engine/shooting/separate_rays.h"
+#include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/solving/mean_of_steps.h"
 
@@ -35,7 +36,7 @@ struct StepTask {
 /// Throws SolveError after so many bounces that the series seems not to end.
 void check_bounces(const Mesh& mesh, std::uint64_t bounces, std::uint64_t step);
 
-class StepwiseSolver : public Solver {
+class StepwiseSolver : public EngineSolver {
   public:
     bool step() final;
     [[nodiscard]] const Solution& solution() const final { return mean_.solution; }

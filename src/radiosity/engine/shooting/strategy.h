@@ -8,11 +8,8 @@
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "radiosity/paper/solving/solver.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,41 +19,33 @@ namespace hemilux {
 
 /// The cells of a patch in their order, and N_tr / N_hemi of the paper as running sums. Each cell
 /// is one of Hemisphere::cells(), or whole_hemisphere, or private. Of the patch's rays, cell k owns
-/// those from rays_up_to[k - 1], or 0, to rays_up_to[k]; the last sum is all rays. With the rules
-/// as printed it need not be 1.
+/// those from rays_up_to[k - 1], or 0, to rays_up_to[k]; the last sum is 1, which is all rays. With
+/// the rules as printed it need not be 1.
 ///
 /// Every strategy is unbiased, however the rays are allocated, as long as each cell with power has
 /// a positive share of them. This is because a ray carries the power of its cell, divided among the
-/// cell's rays. So floats suffice. Many patches allocate anew in each bounce, and what is kept for
-/// that should be small.
+/// cell's rays.
 struct Allocation {
     std::span<const std::uint16_t> cells;
-    std::span<const float> rays_up_to;
+    std::span<const double> rays_up_to;
 
     [[nodiscard]] double rays(std::size_t k) const {
-        return k > 0 ? double(rays_up_to[k]) - double(rays_up_to[k - 1]) : double(rays_up_to[0]);
+        return k > 0 ? rays_up_to[k] - rays_up_to[k - 1] : rays_up_to[0];
     }
 };
 
 /// The memory of an allocation.
 struct AllocatedCells {
     std::vector<std::uint16_t> cells;
-    std::vector<float> rays_up_to;
+    std::vector<double> rays_up_to;
 
-    void clear() { cells.clear(), rays_up_to.clear(), sum_ = 0; }
-    /// Adds a cell and its share of the patch's rays. Rounding leaves no cell without rays.
+    void clear() { cells.clear(), rays_up_to.clear(); }
+    /// Adds a cell and its share of the patch's rays.
     void add(std::uint16_t cell, double rays) {
-        const float before = rays_up_to.empty() ? 0 : rays_up_to.back();
-        const float after = static_cast<float>(sum_ += rays);
         cells.push_back(cell);
-        rays_up_to.push_back(rays > 0 && !(after > before) ? std::nextafter(before, most)
-                                                           : std::max(before, after));
+        rays_up_to.push_back((rays_up_to.empty() ? 0 : rays_up_to.back()) + rays);
     }
     [[nodiscard]] Allocation view() const { return {cells, rays_up_to}; }
-
-  private:
-    static constexpr float most = std::numeric_limits<float>::max();
-    double sum_ = 0;
 };
 
 /// A cell that is not in the table which all patches share. It is made only when rays are shot into

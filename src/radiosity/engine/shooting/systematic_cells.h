@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -26,9 +28,10 @@ class SystematicCells {
   public:
     /// The patch owns the line from `before` to `after`.
     SystematicCells(const Allocation& allocation, double before, double after)
-        : allocation_(allocation), line_{before, after,
-                                         (after - before) / allocation.rays_up_to.back(),
-                                         allocation.rays_up_to.back()} {}
+        : allocation_(allocation), line_{before, after, after - before,
+                                         allocation.rays_up_to.back()} {
+        assert(std::abs(line_.all - 1) < max_rounding);
+    }
 
     /// Calls found(cell, expected, low, high) for each cell with rays, in their order. `expected`
     /// is N_tr; the cell's rays are those from low + 1 to high.
@@ -52,6 +55,9 @@ class SystematicCells {
     }
 
   private:
+    /// The most that the sum of the shares of a strategy is off from 1.
+    static constexpr double max_rounding = 1e-9;
+
     Allocation allocation_;
     PatchOnLine line_;
 };

@@ -2,6 +2,7 @@
 
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/transport_figures.h"
+#include "radiosity/paper/solution/solution.h"
 
 namespace hemilux {
 namespace {

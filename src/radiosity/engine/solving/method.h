@@ -2,9 +2,9 @@
 // Defines what the program and the tests know of a method: its name, what it does and needs, its
 // options.
 
-#include "radiosity/engine/solving/method_option.h"
-#include "radiosity/paper/solving/solver.h"
+#include "radiosity/paper/solving/stop_rule.h"
 
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -15,9 +15,14 @@
 
 namespace hemilux {
 
-class Strategy;
+class EngineSolver;
 class Hemisphere;
+class Solver;
+class Strategy;
 class Workers;
+struct MethodOption;
+struct SolveOptions;
+struct SolverInput;
 /// Makes the strategy of a stepwise shooting method (strategy.h).
 using MakeStrategy = std::unique_ptr<Strategy> (*)(const SolverInput&, const Hemisphere&,
                                                    const Workers&);
@@ -50,13 +55,13 @@ struct Method {
     bool has_depth = false;   ///< --depth changes it
     bool unbiased;            ///< each step, in its corrected form; else consistent
     StopRule default_stop;    ///< rule where the user gives none
-    std::unique_ptr<Solver> (*make)(const SolverInput&);
+    std::unique_ptr<EngineSolver> (*make)(const SolverInput&);
     MakeStrategy strategy = nullptr; ///< what it shoots with; nullptr if it is no shooting method
     MethodWork work = {};            ///< what it does that a scene may not need
     bool takes_points = false; ///< it traces shadow rays to lights without extent (lit_by_points.h)
     bool saves = false;        ///< save and load are there; all shooting methods have them
-    /// Makes the same on one page, slow and obviously right (plain/plain.h); nullptr where there is
-    /// none.
+    /// Makes the same on one page, slow and obviously right (paper/pages/pages.h); nullptr where
+    /// there is none.
     std::unique_ptr<Solver> (*plain)(const SolverInput&) = nullptr;
     std::size_t max_plain_patches = std::numeric_limits<std::size_t>::max(); ///< limit of its page
     std::optional<Role> role = {};
@@ -79,21 +84,14 @@ struct Method {
 
     [[nodiscard]] bool can_resume() const { return saves || strategy; }
     [[nodiscard]] bool takes_target() const { return aims && aims(); }
-    [[nodiscard]] std::vector<MethodOption> own_options() const {
-        return options ? options() : std::vector<MethodOption>{};
-    }
+    [[nodiscard]] std::vector<MethodOption> own_options() const;
     /// Returns what it does with these options.
-    [[nodiscard]] MethodWork work_with(const SolveOptions& chosen) const {
-        MethodWork done = work;
-        if (adapt)
-            adapt(done, chosen);
-        return done;
-    }
+    [[nodiscard]] MethodWork work_with(const SolveOptions& chosen) const;
 };
 
 /// Makes a solver of this class from its input, for Method::make.
 template <class Class>
-[[nodiscard]] std::unique_ptr<Solver> make_solver_of(const SolverInput& input) {
+[[nodiscard]] std::unique_ptr<EngineSolver> make_solver_of(const SolverInput& input) {
     return std::make_unique<Class>(input);
 }
 

@@ -10,11 +10,11 @@
 //                 number_option("--rings", "rings of cells [4]", &RingOptions::rings, rings)};
 //     }
 //
-// and the method reads input.options.own.of<RingOptions>().
+// and the method reads own_options<RingOptions>(input.options).
 
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/solving/solve_options.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -51,6 +51,14 @@ struct MethodOption {
     }
 };
 
+/// Sets one member of a method's options.
+template <class Own, class Value>
+void set_own_option(SolveOptions& options, Value Own::*member, Value value) {
+    Own changed = own_options<Own>(options);
+    changed.*member = value;
+    set_own_options(options, changed);
+}
+
 /// Makes an option that is given or not.
 template <class Own>
 [[nodiscard]] MethodOption flag_option(const std::string& name, const std::string& help,
@@ -62,11 +70,11 @@ template <class Own>
                 [member](SolveOptions& options, std::string_view text) {
                     if (text != "yes" && text != "no")
                         return false;
-                    options.own.of<Own>().*member = text == "yes";
+                    set_own_option(options, member, text == "yes");
                     return true;
                 },
             .get = [member](const SolveOptions& options) -> std::string {
-                return options.own.of<Own>().*member ? "yes" : "no";
+                return own_options<Own>(options).*member ? "yes" : "no";
             }};
 }
 
@@ -83,17 +91,16 @@ template <class Own>
             .values = values,
             .set =
                 [member, choices](SolveOptions& options, std::string_view text) {
-                    const auto found = std::ranges::find_if(choices, [text](std::uint32_t choice) {
-                        return std::to_string(choice) == text;
-                    });
-                    if (found == choices.end())
-                        return false;
-                    options.own.of<Own>().*member = *found;
-                    return true;
+                    for (const std::uint32_t choice : choices)
+                        if (std::to_string(choice) == text) {
+                            set_own_option(options, member, choice);
+                            return true;
+                        }
+                    return false;
                 },
             .get =
                 [member](const SolveOptions& options) {
-                    return std::to_string(options.own.of<Own>().*member);
+                    return std::to_string(own_options<Own>(options).*member);
                 }};
 }
 

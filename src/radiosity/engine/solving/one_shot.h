@@ -1,7 +1,7 @@
 #pragma once
 // Defines --one-shot, of the methods whose light comes shot by shot.
 
-#include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/method_option.h"
 
 namespace hemilux {
 
@@ -12,7 +12,7 @@ struct OneShotOptions {
 };
 
 [[nodiscard]] inline bool is_one_shot(const SolveOptions& options) {
-    return options.own.of<OneShotOptions>().one_shot;
+    return own_options<OneShotOptions>(options).one_shot;
 }
 
 [[nodiscard]] inline MethodOption one_shot_option() {

@@ -1,5 +1,6 @@
 #include "radiosity/engine/solving/run.h"
 
+#include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/engine/solving/time_limit.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -23,9 +24,10 @@ constexpr double min_seconds = 1;
 
 bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
          const std::function<void(const StepRecord&, const Solution&)>& after_step,
-         const Before& before) {
-    if (stop.error)
-        solver.aim_at(*stop.error);
+         const Before& before, const std::function<bool(const Solution& image)>& useful) {
+    auto* const planned = dynamic_cast<EngineSolver*>(&solver); // a page plans nothing
+    if (planned && stop.error)
+        planned->aim_at(*stop.error);
     const auto start = std::chrono::steady_clock::now();
     const auto elapsed = [&] {
         const std::chrono::duration<double> d = std::chrono::steady_clock::now() - start;
@@ -56,7 +58,8 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
             !stop.seconds)
             patience = std::max(*stop.patience - last, min_seconds);
         const TimeLimit limit_of_patience(interrupted, patience);
-        if ((agree(interrupted) && solver.steps_ready() == 0) || !solver.step())
+        const bool is_to_end = agree(interrupted) && !(planned && planned->steps_ready() > 0);
+        if (is_to_end || !solver.step())
             return !interrupted.is_wished(); // but for the caller's wish the run ends by its rule
         const Solution& solution = solver.solution();
         error = estimated_error(input.mesh, solution);
@@ -69,7 +72,7 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
         longest = std::max(longest, took);
         last = record.seconds;
         if (done(step, record.seconds, record.estimated_error) ||
-            (stop.useful && ranks_of(interrupted).of_first(stop.useful(solution) ? 1. : 0.) > 0))
+            (useful && ranks_of(interrupted).of_first(useful(solution) ? 1. : 0.) > 0))
             return true;
         if (patience && !std::isfinite(error) && record.seconds > *stop.patience)
             return true;

@@ -1,7 +1,7 @@
 #pragma once
 // Runs a solver: it takes steps until a rule ends the run.
 
-#include "radiosity/paper/solving/solver.h"
+#include "radiosity/engine/solving/engine_solver.h"
 
 #include <cstdint>
 #include <functional>
@@ -30,9 +30,10 @@ inline constexpr double least_growth = .5;
 /// Takes steps until the rule or the monitor ends the run; then still those that are ready.
 /// `after_step` sees each new solution. Returns false when interrupted. At the end of
 /// `stop.seconds`, or of one second where that is later, a step is cut short. If it is the first
-/// there may be no step at all. At the end of `stop.patience` a step is cut short too.
+/// there may be no step at all. At the end of `stop.patience` a step is cut short too. The run also
+/// ends where the image is useful: "Useful (Image)" of the paper, sections 3 to 5.
 bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
          const std::function<void(const StepRecord&, const Solution&)>& after_step = {},
-         const Before& before = {});
+         const Before& before = {}, const std::function<bool(const Solution& image)>& useful = {});
 
 } // namespace hemilux

@@ -1,5 +1,7 @@
 #include "radiosity/engine/solving/time_limit.h"
 
+#include "radiosity/engine/solving/shared_stop.h"
+
 #include <algorithm>
 #include <chrono>
 
@@ -26,7 +28,7 @@ TimeLimit::~TimeLimit() {
     }
     end_.notify_one();
     waiting_.join();
-    flag_.set_out_of_time(false);
+    end_time_limit(flag_);
 }
 
 } // namespace hemilux

@@ -2,7 +2,7 @@
 
 #include "geometry/frame.h"
 #include "parallel/workers.h"
-#include "radiosity/paper/rays/receivers.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"

@@ -1,7 +1,7 @@
 #include "radiosity/light/cached_light/walks.h"
 
 #include "geometry/frame.h"
-#include "radiosity/paper/rays/receivers.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"

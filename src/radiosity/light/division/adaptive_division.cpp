@@ -1,5 +1,6 @@
 #include "radiosity/light/division/adaptive_division.h"
 
+#include "radiosity/engine/cells/refine.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/stored_transport/stored_transport_method.h"
 #include "radiosity/light/division/division_weights.h"
@@ -310,7 +311,7 @@ bool Division::cut(Solution& light, double goal) {
     std::vector<Vec3> emission; // of a texture, which differs from piece to piece
     for (std::uint32_t i = 0; i < before; ++i)
         emission.push_back(mesh_.material(i).emission);
-    const std::vector<std::uint32_t> parents = mesh_.refine(levels);
+    const std::vector<std::uint32_t> parents = refine(mesh_, levels);
     square_ = inherited(square_, parents);
     slopes_ = inherited(slopes_, parents);
     times_ = inherited(times_, parents);

@@ -1,7 +1,7 @@
 #include "radiosity/light/final_gather/gather_in_parts.h"
 
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/light/cached_light/patch_light.h"
-#include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -34,6 +34,7 @@ std::vector<EmitterLight> GatherInParts::direct(std::span<const SurfacePoint> po
     WeighedEmitters weighed;
     ShadowRays<LightAtPlace> rays;
     const auto trace = [&] {
+        traced_ += rays.size();
         rays.trace(tracer_, [&](const LightAtPlace& sample, double share) {
             if (share > 0)
                 found[sample.place].arriving += share * sample.light;
@@ -79,14 +80,18 @@ std::vector<Vec3> GatherInParts::from_points(std::span<const SurfacePoint> point
         if (share > 0)
             found[sample.place] += share * sample.light;
     };
+    const auto trace = [&] {
+        traced_ += rays.size();
+        rays.trace(tracer_, add);
+    };
     for (std::uint32_t k = 0; k < points.size(); ++k) {
         emitters.add_rays(points[k], PointEmitters::max_rays_of_point,
                           Rng(hash_words({samples[k].seed, samples[k].first})).uniform(), Vec3(1.0),
                           k, rays);
         if (rays.size() >= rays_traced_together)
-            rays.trace(tracer_, add);
+            trace();
     }
-    rays.trace(tracer_, add);
+    trace();
     return found;
 }
 
@@ -98,6 +103,7 @@ void GatherInParts::read_patches(std::span<const SurfacePoint> points, const Ray
     const Tracer& facets = tracer_.of_facets();
     std::array<FacetHit, rays_at_a_time> hits;
     PathRays near;
+    traced_ += rays.rays.size();
     for (std::size_t begin = 0; begin < rays.rays.size(); begin += hits.size()) {
         const std::size_t n = std::min(hits.size(), rays.rays.size() - begin);
         const auto some = std::span(rays.rays).subspan(begin, n);

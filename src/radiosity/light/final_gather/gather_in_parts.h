@@ -11,6 +11,7 @@
 #include "radiosity/light/final_gather/gather_paths.h"
 #include "radiosity/light/final_gather/surface_points.h"
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -67,6 +68,9 @@ class GatherInParts {
     [[nodiscard]] std::vector<IndirectLight> indirect(std::span<const SurfacePoint> points,
                                                       std::span<const GatherSamples> samples) const;
 
+    /// Returns the rays so far, but for those of paths that go on.
+    [[nodiscard]] std::uint64_t rays() const { return traced_; }
+
   private:
     /// The rays that are not traced yet. Aimed ones belong to points that share chances.
     struct Rays {
@@ -91,6 +95,7 @@ class GatherInParts {
     BrightPatches bright_;
     GatherPaths paths_;
     bool only_reflected_;
+    mutable std::atomic<std::uint64_t> traced_{0};
 };
 
 } // namespace hemilux

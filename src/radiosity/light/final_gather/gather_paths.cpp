@@ -1,7 +1,7 @@
 #include "radiosity/light/final_gather/gather_paths.h"
 
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/light/cached_light/patch_light.h"
-#include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"

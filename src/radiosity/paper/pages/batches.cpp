@@ -15,7 +15,7 @@ void combine_batches(const Mesh& mesh, std::span<const std::vector<Vec3>, batche
     double sum = 0;
     for (std::size_t i = 0; i < variance.size(); ++i) {
         const double area = mesh.patches()[i].area;
-        const Vec3 mean = (B[0][i] + B[1][i] + B[2][i] + B[3][i]) / double(batches);
+        const Vec3 mean = mean_of_batches(B, i);
         for (std::size_t s = 0; s < batches; ++s) {
             const Vec3 off = B[s][i] - mean;
             variance[i] += off * off / double(batches * (batches - 1));

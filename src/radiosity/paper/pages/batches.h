@@ -11,6 +11,15 @@ namespace hemilux::plain {
 
 inline constexpr std::size_t batches = 4;
 
+/// Returns the mean over the batches of what each has found for patch i.
+[[nodiscard]] inline Vec3 mean_of_batches(std::span<const std::vector<Vec3>> by_batch,
+                                          std::size_t i) {
+    Vec3 sum = by_batch[0][i];
+    for (std::size_t s = 1; s < batches; ++s)
+        sum += by_batch[s][i];
+    return sum / double(batches);
+}
+
 /// Sets the radiosity of `solution` and its errors. B[s] is the radiosity by batch s, by patch; the
 /// last of B, that by all rays together, becomes the radiosity of `solution`. Its standard error,
 /// its variance and the degrees of freedom follow from how the batches spread.

@@ -22,7 +22,6 @@
 #include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/solving/check_input.h"
-#include "radiosity/paper/solving/progressive_options.h"
 
 #include <array>
 #include <cmath>
@@ -41,8 +40,9 @@ struct FormFactors {
 
 class Progressive final : public Solver {
   public:
-    explicit Progressive(const SolverInput& input)
-        : input_(input), patches_(input.mesh.patches()), solution_(solution_before_steps(input)) {
+    Progressive(const SolverInput& input, bool shows_ambient)
+        : input_(input), shows_ambient_(shows_ambient), patches_(input.mesh.patches()),
+          solution_(solution_before_steps(input)) {
         B_.fill(solution_.radiosity); // the emission, all of which is unshot
         dB_.fill(solution_.radiosity);
     }
@@ -73,7 +73,7 @@ class Progressive final : public Solver {
   private:
     /// Returns the unshot power of a patch, A_i dB_i, in the mean of the batches.
     [[nodiscard]] Vec3 unshot(std::uint32_t i) const {
-        return patches_[i].area * (dB_[0][i] + dB_[1][i] + dB_[2][i] + dB_[3][i]) / double(batches);
+        return patches_[i].area * mean_of_batches(dB_, i);
     }
 
     /// Returns the form factors from patch s to all others.
@@ -116,7 +116,7 @@ class Progressive final : public Solver {
         Vec3 power(0.0), reflecting(0.0);
         double area = 0;
         for (std::uint32_t i = 0; i < patches_.size(); ++i) {
-            B_[batches][i] = (B_[0][i] + B_[1][i] + B_[2][i] + B_[3][i]) / double(batches);
+            B_[batches][i] = mean_of_batches(B_, i);
             power += unshot(i);
             reflecting += patches_[i].area * input_.mesh.material(i).reflectance;
             area += patches_[i].area;
@@ -126,7 +126,7 @@ class Progressive final : public Solver {
         combine_batches(input_.mesh, B_, solution_);
         add_missing(input_.mesh, ambient, solution_);
         for (std::uint32_t i = 0; i < patches_.size(); ++i)
-            if (input_.options.own.of<ProgressiveOptions>().ambient)
+            if (shows_ambient_)
                 solution_.radiosity[i] += input_.mesh.material(i).reflectance * ambient;
         const double to_world = input_.mesh.frame().area_to_world(1.0);
         solution_.energy = {solution_.energy.emitted, to_world * absorbed_.value(),
@@ -134,6 +134,7 @@ class Progressive final : public Solver {
     }
 
     SolverInput input_;
+    bool shows_ambient_;
     std::span<const Patch> patches_;
     Solution solution_;                            ///< shown after the last shot
     std::array<std::vector<Vec3>, batches + 1> B_; ///< radiosity by batch and patch; then the mean
@@ -143,8 +144,10 @@ class Progressive final : public Solver {
 
 } // namespace
 
-std::unique_ptr<Solver> progressive(const SolverInput& input) {
-    return std::make_unique<Progressive>(input);
+std::unique_ptr<Solver> progressive(const SolverInput& input) { return progressive(input, false); }
+
+std::unique_ptr<Solver> progressive(const SolverInput& input, bool ambient) {
+    return std::make_unique<Progressive>(input, ambient);
 }
 
 } // namespace hemilux::plain

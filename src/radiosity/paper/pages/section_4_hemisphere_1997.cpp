@@ -41,7 +41,8 @@ struct Corrected {
     static double area(const SphericalTriangle& tr) { return tr.projected_solid_angle() / pi; }
     /// Patches shoot by their power. Triangle k owns as long a part of the line as any other.
     static Rays rays(const Due& due, double /*N_hemi*/, std::size_t k, std::size_t triangles) {
-        return rays_on_line(due, k, triangles);
+        const auto of_all = [&](std::size_t n) { return double(n) / double(triangles); };
+        return rays_on_line(due, of_all(k), of_all(k + 1));
     }
     static Rays rays(const Due& due, double /*N_hemi*/) { return rays_on_line(due); }
     /// Rays start anywhere on the part.
@@ -55,9 +56,9 @@ struct Corrected {
 template <class Rules>
 class Hemisphere1997 final : public StepSolver {
   public:
-    explicit Hemisphere1997(const SolverInput& input)
-        : StepSolver(input, Rules::rest == 0), own_(input.options.own.of<Subdivision1997Options>()),
-          tree_(n()), stored_(input.mesh.patches().size() * own_.parts) {
+    Hemisphere1997(const SolverInput& input, const Subdivision1997Options& numbers)
+        : StepSolver(input, Rules::rest == 0), own_(numbers), tree_(n()),
+          stored_(input.mesh.patches().size() * own_.parts) {
         if (!Rules::counts_by_the_way)
             divide_to(n());
     }
@@ -142,9 +143,14 @@ class Hemisphere1997 final : public StepSolver {
 } // namespace
 
 std::unique_ptr<Solver> hemisphere_1997(const SolverInput& input) {
+    return hemisphere_1997(input, {});
+}
+
+std::unique_ptr<Solver> hemisphere_1997(const SolverInput& input,
+                                        const Subdivision1997Options& numbers) {
     if (input.options.literal)
-        return std::make_unique<Hemisphere1997<Printed>>(input);
-    return std::make_unique<Hemisphere1997<Corrected>>(input);
+        return std::make_unique<Hemisphere1997<Printed>>(input, numbers);
+    return std::make_unique<Hemisphere1997<Corrected>>(input, numbers);
 }
 
 } // namespace hemilux::plain

@@ -5,7 +5,6 @@
 
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "radiosity/paper/pages/pages.h"
-#include "radiosity/paper/pages/share_line.h"
 #include "radiosity/paper/pages/step.h"
 
 #include <algorithm>
@@ -23,7 +22,9 @@ struct Printed {
     /// D_tr is what was counted: where that is nothing, no ray takes the power (D5).
     static double density(double D_tr, double /*D_average*/) { return D_tr; }
     /// Dim patches shoot N_hemi rays too (D10). Where N_tr rounds to 0, power is lost (D4).
-    static Rays rays(const ShareLine& shares, std::size_t k) { return shares.rounded(k); }
+    static Rays rays(const Due&, double N_hemi, double from, double to) {
+        return rays_rounded(N_hemi * (to - from));
+    }
     /// Rays start at the centre of their patch (D2).
     static Vec3 start(const Patch& from, RayNumbers) { return from.centre; }
     /// The last light would cost as many rays as the first, so this share of it is not shot (D10).
@@ -37,8 +38,11 @@ struct Corrected {
     static double density(double D_tr, double D_average) {
         return std::max({D_tr, 1.0, D_average / 4});
     }
-    /// Patches shoot by their power, N_hemi rays on average. So is N_tr, rounded up or down.
-    static Rays rays(const ShareLine& shares, std::size_t k) { return shares.on_line(k); }
+    /// Patches shoot by their power, N_hemi rays on average. Each triangle gets the rays that stand
+    /// on its part of the patch's line: N_tr, rounded up or down.
+    static Rays rays(const Due& due, double /*N_hemi*/, double from, double to) {
+        return rays_on_line(due, from, to);
+    }
     /// Rays start anywhere on their patch.
     static Vec3 start(const Patch& from, RayNumbers u) { return from.shape.sample(u.start()); }
     /// All light is shot: dim patches have few rays, and chance ends the last ones.
@@ -62,9 +66,17 @@ class NewHemisphereRadiosity final : public StepSolver {
     };
     using Triangles = std::vector<Triangle>; ///< all of a patch's hemisphere
 
-    /// Procedure Preprocessing (Scene), for one patch.
+    /// Procedure Preprocessing (Scene), for one patch. Triangles share vertices, so the surfaces
+    /// along the ray to each vertex are counted once.
     void preprocessing(std::uint32_t patch) {
-        const CountAtVertex count = count_from_centre(patch, hemisphere_);
+        constexpr int not_counted = -1;
+        std::vector<int> counts(hemisphere_.vertices().size(), not_counted);
+        const auto count = [&](std::uint16_t vertex) {
+            if (counts[vertex] == not_counted)
+                counts[vertex] = count_surfaces(patch, input_.mesh.patches()[patch].centre,
+                                                hemisphere_.vertices()[vertex]);
+            return counts[vertex];
+        };
         Triangles& triangles = triangles_.emplace_back();
         for (std::size_t root = 0; root < 4; ++root)
             divide(hemisphere_.cells()[root], count, triangles);
@@ -75,13 +87,14 @@ class NewHemisphereRadiosity final : public StepSolver {
     }
 
     /// Divides a triangle if its density is above ThresholdValue and its level below MaxLevel.
+    template <class CountAtVertex>
     void divide(const Cell& tr, const CountAtVertex& count, Triangles& triangles) const {
         const double D_tr = (count(tr.vertex[0]) + count(tr.vertex[1]) + count(tr.vertex[2])) / 3.0;
         if (D_tr > input_.options.threshold && tr.level < hemisphere_.depth())
             for (std::size_t child = 0; child < 4; ++child)
                 divide(hemisphere_.cells()[tr.first_child + child], count, triangles);
         else
-            triangles.push_back({&tr, static_cast<float>(D_tr)}); // a float in the engine
+            triangles.push_back({&tr, D_tr});
     }
 
     /// Returns D_average, weighted by area, so that all N_tr sum to N_hemi.
@@ -113,11 +126,13 @@ class NewHemisphereRadiosity final : public StepSolver {
         const Frame frame = input_.mesh.hemisphere_frame(due.patch);
         const Triangles& triangles = triangles_[due.patch];
         const double average = D_average(triangles);
-        ShareLine shares(due, input_.options.rays);
-        for (const auto& [tr, D_tr] : triangles) // N_tr / N_hemi = A_tr / A_hemi D_tr / D_average
-            shares.add(average > 0 ? Rules::area(*tr) * D_tr / average : 0);
-        for (std::uint32_t k = 0, number = 0; const auto& [tr, D_tr] : triangles) {
-            const Rays N_tr = Rules::rays(shares, k++);
+        if (average == 0) // as printed, there are no rays where nothing was seen
+            return;
+        double from = 0; // N_tr / N_hemi, summed over the triangles before
+        for (std::uint32_t number = 0; const auto& [tr, D_tr] : triangles) {
+            const double to = from + Rules::area(*tr) * D_tr / average; // A_tr / A_hemi
+            const Rays N_tr = Rules::rays(due, input_.options.rays, from, to);
+            from = to;
             const Vec3 Phi_ray = // Phi_tr / N_tr, Phi_tr = Phi_patch A_tr / A_hemi
                 1 / N_tr.divisor * Rules::area(*tr) * result.unshot[due.patch];
             for (std::uint64_t ray = 0; ray < N_tr.number; ++ray) { // for each direction
@@ -140,7 +155,7 @@ std::unique_ptr<Solver> hemisphere(const SolverInput& scene) {
     return std::make_unique<NewHemisphereRadiosity<Corrected>>(scene);
 }
 
-Solution new_hemisphere_radiosity(const SolverInput& scene, const Useful& useful) {
+Solution new_hemisphere_radiosity(const SolverInput& scene, Useful useful) {
     const std::unique_ptr<Solver> image = hemisphere(scene); // Preprocessing (Scene)
     while (!useful(image->solution()) && image->step()) {    // Compute Radiosity (Scene)
     }

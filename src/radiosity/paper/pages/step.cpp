@@ -12,11 +12,11 @@ Rays rays_on_line(double N, double begin, double end) {
     return {static_cast<std::uint64_t>(whole), N >= 1 ? whole : N};
 }
 
-Rays rays_on_line(const Due& due, std::size_t part, std::size_t parts) {
-    const auto begin = [&](std::size_t k) {
-        return k < parts ? due.begin + due.rays() * (double(k) / double(parts)) : due.end;
+Rays rays_on_line(const Due& due, double from, double to) {
+    const auto place = [&](double share) {
+        return share < 1 ? due.begin + due.rays() * share : due.end;
     };
-    return rays_on_line(due.rays() / double(parts), begin(part), begin(part + 1));
+    return rays_on_line(due.rays() * (to - from), place(from), place(to));
 }
 
 Rays rays_rounded(double N) {
@@ -115,18 +115,6 @@ std::uint8_t StepSolver::count_surfaces(std::uint32_t patch, const Vec3& from,
     ++mean_.solution.rays_density;
     ++input_.monitor.rays;
     return static_cast<std::uint8_t>(std::min(input_.tracer.count(ray), 255U));
-}
-
-StepSolver::CountAtVertex StepSolver::count_from_centre(std::uint32_t patch,
-                                                        const Hemisphere& hemisphere) {
-    constexpr int not_counted = -1;
-    std::vector<int> counts(hemisphere.vertices().size(), not_counted);
-    return [this, patch, &hemisphere, counts](std::uint16_t vertex) mutable {
-        if (counts[vertex] == not_counted)
-            counts[vertex] = count_surfaces(patch, input_.mesh.patches()[patch].centre,
-                                            hemisphere.vertices()[vertex]);
-        return counts[vertex];
-    };
 }
 
 } // namespace hemilux::plain

@@ -2,14 +2,11 @@
 // The pages that trace bounces share this: the power that patches receive and shoot in a step, the
 // rays that they are due, and the mean of the steps (mean_of_steps.h).
 
-#include "radiosity/paper/hemisphere/hemisphere.h"
 #include "radiosity/paper/pages/ray_numbers.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/solving/mean_of_steps.h"
 
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <vector>
 
 namespace hemilux::plain {
@@ -35,8 +32,8 @@ struct Rays {
 [[nodiscard]] inline Rays rays_on_line(const Due& due) {
     return rays_on_line(due.rays(), due.begin, due.end);
 }
-/// Returns the rays of one of so many parts that own the patch's interval, each as long.
-[[nodiscard]] Rays rays_on_line(const Due& due, std::size_t part, std::size_t parts);
+/// Returns the rays of a part of the patch's interval, from one share of it to another [-].
+[[nodiscard]] Rays rays_on_line(const Due& due, double from, double to);
 /// Returns N rays as printed: rounded, so that power is lost where N is below one half.
 [[nodiscard]] Rays rays_rounded(double N);
 
@@ -90,13 +87,6 @@ class StepSolver : public Solver {
     /// as one byte holds them. Directions on the horizon are lifted a little (D7).
     [[nodiscard]] std::uint8_t count_surfaces(std::uint32_t patch, const Vec3& from,
                                               const Vec3& direction);
-
-    /// Counts the surfaces along a ray from a patch's centre to a vertex of its hemisphere.
-    using CountAtVertex = std::function<int(std::uint16_t vertex)>;
-    /// Returns a function that does so for a patch. It traces one ray to each vertex at most, as
-    /// triangles share vertices.
-    [[nodiscard]] CountAtVertex count_from_centre(std::uint32_t patch,
-                                                  const Hemisphere& hemisphere);
 
     SolverInput input_;
     MeanOfSteps mean_;

@@ -5,7 +5,6 @@
 #include "bvh/tracer.h"
 #include "geometry/compensated_sum.h"
 #include "geometry/polygon_sampler.h"
-#include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/sampling/concentric_map.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"

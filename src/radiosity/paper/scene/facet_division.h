@@ -30,10 +30,10 @@ class FacetDivision {
     /// those of the first strip.
     [[nodiscard]] bool is_fan() const { return triangle_ && !similar_; }
 
-    /// A piece, with the place of a point in it (patch_cells.h).
+    /// A piece, with the place of a point in it.
     struct Place {
         std::uint32_t piece;
-        Vec2 inside; ///< coordinates [-]
+        Vec2 inside; ///< coordinates [-], of the unit square or of its half x + y < 1
     };
     [[nodiscard]] Place place_of(const Hit& hit) const {
         return triangle_ ? place_in_triangle(hit) : place_in_quad(hit);

@@ -168,13 +168,21 @@ void Mesh::divide(const MeshOptions& options) {
     patches_.reserve(patches);
     for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
         for (const Polygon& piece : divisions_[f].pieces.cut(shape_of(f)))
-            add_patches(f, piece);
+            for (const bool back : {false, true})
+                if (!back || has_back(f))
+                    patches_.push_back(patch_from(piece, f, back));
 }
 
-void Mesh::add_patches(std::uint32_t facet, const Polygon& shape) {
-    for (const bool back : {false, true})
-        if (!back || has_back(facet))
-            patches_.push_back(patch_from(shape, facet, back));
+void Mesh::take_finer(std::vector<Patch> patches, std::span<const std::uint32_t> first_patch,
+                      std::shared_ptr<const FinerPatches> finer) {
+    patches_ = std::move(patches);
+    finer_ = std::move(finer);
+    for (std::uint32_t f = 0; f < divisions_.size(); ++f) {
+        auto& [pieces, first] = divisions_[f];
+        first = first_patch[f];
+        only_patch_[f] = pieces.pieces() > 1 || finer_->divides(f) ? none : first;
+    }
+    find_colours();
 }
 
 std::uint32_t Mesh::patch_at(const Hit& hit) const {
@@ -186,105 +194,9 @@ std::uint32_t Mesh::patch_at(const Hit& hit) const {
     if (!is_divided(hit.facet))
         return division.first_patch + side;
     const FacetDivision::Place place = division.pieces.place_of(hit);
-    if (division.first_cell != none)
-        return cells_.patch_at(division.first_cell + place.piece, division.pieces.is_similar(),
-                               place.inside) +
-               side;
+    if (finer_ && finer_->divides(hit.facet))
+        return finer_->patch_at(hit.facet, division.pieces, place) + side;
     return division.first_patch + (has_two ? 2 : 1) * place.piece + side;
-}
-
-/// Returns the shape, as a cell, of a piece that is a patch's front.
-CellShape Mesh::cell_shape(std::uint32_t facet, const Polygon& piece) const {
-    const auto& p = piece.corner;
-    const bool fan = divisions_[facet].pieces.is_fan();
-    if (fan && piece.is_triangle()) // of the strip at the apex
-        return {{p[0], p[1], p[2], p[0]}, false};
-    return {p, !fan && piece.is_triangle()};
-}
-
-/// The patches and cells before a refinement, and how often they are to be divided.
-struct Mesh::Refinement {
-    std::vector<Patch> patches;
-    std::vector<Division> divisions;
-    CellTree cells;
-    std::span<const std::uint8_t> levels;
-    std::vector<std::uint32_t> parents; ///< parents of the patches there are now
-
-    [[nodiscard]] int levels_of(std::uint32_t front, bool two_sided) const {
-        return std::max(levels[front], two_sided ? levels[front + 1] : levels[front]);
-    }
-};
-
-std::vector<std::uint32_t> Mesh::refine(std::span<const std::uint8_t> levels) {
-    Refinement before{
-        std::exchange(patches_, {}), divisions_, std::exchange(cells_, {}), levels, {}};
-    for (std::uint32_t f = 0; f < divisions_.size(); ++f)
-        refine_facet(f, before);
-    find_colours();
-    return std::move(before.parents);
-}
-
-void Mesh::refine_facet(std::uint32_t facet, Refinement& before) {
-    Division& division = divisions_[facet];
-    const std::uint32_t begin = division.first_patch;
-    const std::uint32_t end = facet + 1 < divisions_.size()
-                                  ? before.divisions[facet + 1].first_patch
-                                  : static_cast<std::uint32_t>(before.patches.size());
-    division.first_patch = static_cast<std::uint32_t>(patches_.size());
-    const auto levels = before.levels.subspan(begin, end - begin);
-    const bool had_cells = division.first_cell != none;
-    if (!had_cells &&
-        std::all_of(levels.begin(), levels.end(), [](std::uint8_t level) { return level == 0; })) {
-        for (std::uint32_t i = begin; i < end; ++i) {
-            patches_.push_back(before.patches[i]);
-            before.parents.push_back(i);
-        }
-        if (only_patch_[facet] != none)
-            only_patch_[facet] = division.first_patch;
-        return;
-    }
-    only_patch_[facet] = none;
-    const std::uint32_t pieces = division.pieces.pieces();
-    const std::uint32_t old_cell = division.first_cell;
-    division.first_cell = cells_.add(pieces);
-    for (std::uint32_t q = 0; q < pieces; ++q) {
-        if (had_cells) {
-            refine_cell(division.first_cell + q, old_cell + q, facet, before);
-            continue;
-        }
-        const std::uint32_t patch = begin + q * (has_back(facet) ? 2 : 1);
-        refine_leaf(division.first_cell + q, cell_shape(facet, before.patches[patch].shape), facet,
-                    before.levels_of(patch, has_back(facet)), patch, before);
-    }
-}
-
-void Mesh::refine_cell(std::uint32_t cell, std::uint32_t before_cell, std::uint32_t facet,
-                       Refinement& before) {
-    const CellTree::Cell old = before.cells[before_cell];
-    if (old.cut == CellCut::leaf)
-        return refine_leaf(cell, cell_shape(facet, before.patches[old.first].shape), facet,
-                           before.levels_of(old.first, has_back(facet)), old.first, before);
-    const std::uint32_t count = old.cut == CellCut::four ? 4 : 2, first = cells_.add(count);
-    cells_[cell] = {first, old.cut};
-    for (std::uint32_t q = 0; q < count; ++q)
-        refine_cell(first + q, old.first + q, facet, before);
-}
-
-void Mesh::refine_leaf(std::uint32_t cell, const CellShape& shape, std::uint32_t facet, int levels,
-                       std::uint32_t parent, Refinement& before) {
-    if (levels == 0) {
-        cells_[cell] = {static_cast<std::uint32_t>(patches_.size()), CellCut::leaf};
-        add_patches(facet, shape.polygon());
-        for (std::uint32_t side = 0; side < (has_back(facet) ? 2 : 1); ++side)
-            before.parents.push_back(parent + side);
-        return;
-    }
-    const CellCut by = best_cut(shape);
-    const std::vector<CellShape> pieces = cut(shape, by);
-    const std::uint32_t first = cells_.add(static_cast<std::uint32_t>(pieces.size()));
-    cells_[cell] = {first, by};
-    for (std::uint32_t q = 0; q < pieces.size(); ++q)
-        refine_leaf(first + q, pieces[q], facet, levels - 1, parent, before);
 }
 
 } // namespace hemilux

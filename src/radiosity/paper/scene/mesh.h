@@ -10,7 +10,6 @@
 #include "geometry/frame.h"
 #include "geometry/polygon.h"
 #include "radiosity/paper/scene/facet_division.h"
-#include "radiosity/paper/scene/patch_cells.h"
 #include "radiosity/paper/scene/scene.h"
 
 #include <memory>
@@ -80,6 +79,17 @@ struct LocalFacets {
     }
 };
 
+/// The division of pieces of facets into smaller patches, by whoever refines a mesh.
+class FinerPatches {
+  public:
+    virtual ~FinerPatches() = default;
+    /// Returns whether pieces of the facet are divided.
+    [[nodiscard]] virtual bool divides(std::uint32_t facet) const = 0;
+    /// Returns the front patch at a place of a facet whose pieces are divided.
+    [[nodiscard]] virtual std::uint32_t patch_at(std::uint32_t facet, const FacetDivision& pieces,
+                                                 const FacetDivision::Place& place) const = 0;
+};
+
 class Mesh {
   public:
     /// Throws std::invalid_argument when the scene has no facet or too many patches would be made.
@@ -87,10 +97,13 @@ class Mesh {
     /// Does the same with facets that are not quite where the scene has them (layered_mesh.h).
     Mesh(Scene scene, const MeshOptions& options, LocalFacets facets);
 
-    /// Divides each patch `levels[patch]` times: each level makes four patches of one, or two of a
-    /// long one. The larger of the levels of a patch's two sides counts. Facets, and tracers of
-    /// them, remain valid. Returns for each new patch the old one that it is a piece of.
-    std::vector<std::uint32_t> refine(std::span<const std::uint8_t> levels);
+    /// Takes smaller patches in place of those there are (engine/cells/refine.h). They are in the
+    /// order of facets, of which each begins with the patch `first_patch[facet]`. Facets, and
+    /// tracers of them, remain valid.
+    void take_finer(std::vector<Patch> patches, std::span<const std::uint32_t> first_patch,
+                    std::shared_ptr<const FinerPatches> finer);
+    /// Returns the division into these smaller patches; null where there are none.
+    [[nodiscard]] const FinerPatches* finer() const { return finer_.get(); }
 
     /// Gives the patches other colours.
     void vary_colours(std::shared_ptr<VaryingColours> colours);
@@ -141,6 +154,16 @@ class Mesh {
     [[nodiscard]] bool all_layers_are_offset() const { return facets_.all_layers_are_offset; }
     /// Returns one side of a facet as a single patch, as if the facet were not divided.
     [[nodiscard]] Patch whole_side(std::uint32_t facet, bool back) const;
+    /// Returns a part of a facet, or the back of it, as a patch.
+    [[nodiscard]] Patch patch_from(const Polygon& shape, std::uint32_t facet, bool back) const;
+    /// Returns the pieces of a facet, those of MeshOptions::max_edge.
+    [[nodiscard]] const FacetDivision& pieces(std::uint32_t facet) const {
+        return divisions_[facet].pieces;
+    }
+    /// Returns the first patch of a facet; those of a facet follow each other.
+    [[nodiscard]] std::uint32_t first_patch(std::uint32_t facet) const {
+        return divisions_[facet].first_patch;
+    }
     /// Returns whether a facet has more than one patch on each side.
     [[nodiscard]] bool is_divided(std::uint32_t facet) const { return only_patch_[facet] == none; }
     /// Returns the patch on one side of a facet that is not divided; none on the back of a
@@ -157,20 +180,9 @@ class Mesh {
     struct Division {
         FacetDivision pieces;
         std::uint32_t first_patch;
-        std::uint32_t first_cell = none; ///< one for each piece; none where no piece is divided
     };
-    struct Refinement;
 
-    [[nodiscard]] Patch patch_from(const Polygon& shape, std::uint32_t facet, bool back) const;
     void divide(const MeshOptions& options);
-    [[nodiscard]] CellShape cell_shape(std::uint32_t facet, const Polygon& piece) const;
-    void refine_facet(std::uint32_t facet, Refinement& before);
-    void refine_cell(std::uint32_t cell, std::uint32_t before_cell, std::uint32_t facet,
-                     Refinement& before);
-    /// Divides a leaf `levels` times; `parent` is the front patch that it is a piece of.
-    void refine_leaf(std::uint32_t cell, const CellShape& shape, std::uint32_t facet, int levels,
-                     std::uint32_t parent, Refinement& before);
-    void add_patches(std::uint32_t facet, const Polygon& shape);
     void find_colours();
 
     Scene scene_;
@@ -178,7 +190,7 @@ class Mesh {
     std::vector<Patch> patches_;
     std::vector<Material> colours_; ///< the materials, then those of patches on which colours vary
     std::vector<Division> divisions_;
-    CellTree cells_;
+    std::shared_ptr<const FinerPatches> finer_; ///< null where pieces are whole patches
     std::vector<std::uint32_t>
         only_patch_; ///< patch of a facet, none if divided: all that most hits need
     bool two_sided_ = false;

@@ -3,7 +3,6 @@
 #include "geometry/frame.h"
 #include "geometry/polygon_sampler.h"
 #include "radiosity/paper/rays/patch_start.h"
-#include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
@@ -93,15 +92,16 @@ class Search {
         return freed;
     }
 
+    /// Returns the patches that rays hit; none where they leave the scene or hit a back.
     [[nodiscard]] std::vector<std::uint32_t> receivers_of(std::uint32_t shooter,
                                                           std::size_t rays) const {
         Rng rng(hash_words({input_.options.seed, round_, shooter}));
         const auto start = PatchStart::in_any_axes(input_.mesh, shooter);
-        std::vector<Ray> drawn;
-        for (std::size_t k = 0; k < rays; ++k)
-            drawn.push_back(start.cosine_ray(rng));
         std::vector<std::uint32_t> receivers;
-        find_receivers(drawn, input_.mesh, input_.tracer, receivers);
+        for (std::size_t k = 0; k < rays; ++k) {
+            const std::optional<Hit> hit = input_.tracer.closest(start.cosine_ray(rng));
+            receivers.push_back(hit ? input_.mesh.patch_at(*hit) : none);
+        }
         return receivers;
     }
 

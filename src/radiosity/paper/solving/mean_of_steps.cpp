@@ -25,20 +25,17 @@ MeanOfSteps::MeanOfSteps(const SolverInput& input, bool equal_rays)
     sums.squares.assign(input.mesh.patches().size(), Vec3(0.0));
 }
 
-bool MeanOfSteps::find_ray_power(const SolveOnce& pilot) {
-    if (!equal_rays_ || !(emitted() > 0)) {
-        ray_power = std::numeric_limits<double>::infinity();
-        return true;
-    }
+double MeanOfSteps::ray_power_of_pilot() const {
     input_.monitor.phase = "pilot";
     const double rays = input_.options.rays * static_cast<double>(sums.squares.size());
     const double pilot_rays = std::clamp(rays / 16, 1000.0, 400'000.0);
-    StepResult result(input_.mesh);
-    if (!pilot(emitted() / (1 - mean_reflectance(input_.mesh)) / pilot_rays, result))
-        return false;
-    solution.rays_energy += result.rays;
-    ray_power = result.shot / rays;
-    return true;
+    return emitted() / (1 - mean_reflectance(input_.mesh)) / pilot_rays;
+}
+
+void MeanOfSteps::set_ray_power(const StepResult& of_pilot) {
+    const double rays = input_.options.rays * static_cast<double>(sums.squares.size());
+    solution.rays_energy += of_pilot.rays;
+    ray_power = needs_pilot() ? of_pilot.shot / rays : std::numeric_limits<double>::infinity();
 }
 
 /// Updates mean and spread by Welford (1962). What patches send by the solution and what rays have

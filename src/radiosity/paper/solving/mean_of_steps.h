@@ -10,7 +10,6 @@
 #include "radiosity/paper/solving/solver.h"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace hemilux {
@@ -43,14 +42,20 @@ class MeanOfSteps {
     /// as many as any other. Throws SolveError as solution_before_steps() does.
     MeanOfSteps(const SolverInput& input, bool equal_rays);
 
-    /// Solves one step, whose rays carry `ray_power` on average; false when interrupted.
-    using SolveOnce = std::function<bool(double ray_power, StepResult& result)>;
     /// Finds the power per ray by a pilot of few rays, so that a step shoots as many rays as were
     /// asked for. All bounces together carry several times the emitted power, and how many depends
     /// on the scene. The power is then the same in all steps, which keeps them independent and
     /// equally weighted. The solution counts the rays of the pilot, but has none of its light.
-    /// Returns false when interrupted.
-    bool find_ray_power(const SolveOnce& pilot);
+    /// pilot(ray_power, result) solves a step whose rays carry so much on average; it returns false
+    /// when interrupted, and so does this.
+    template <class Pilot>
+    bool find_ray_power(const Pilot& pilot) {
+        StepResult result(input_.mesh);
+        if (needs_pilot() && !pilot(ray_power_of_pilot(), result))
+            return false;
+        set_ray_power(result);
+        return true;
+    }
 
     /// Combines a step with those before. Throws SolveError if its radiosity is not finite.
     void add(const StepResult& step);
@@ -70,6 +75,9 @@ class MeanOfSteps {
     std::vector<double> aimed;
 
   private:
+    [[nodiscard]] bool needs_pilot() const { return equal_rays_ && emitted() > 0; }
+    [[nodiscard]] double ray_power_of_pilot() const;
+    void set_ray_power(const StepResult& of_pilot);
     void note_level(const std::vector<Vec3>& radiosity);
     [[nodiscard]] double weighted_area(std::uint32_t patch) const;
     [[nodiscard]] Vec3 power_leaving() const;

@@ -1,12 +1,14 @@
 #pragma once
 // Holds the options of all methods: how many rays, which random numbers, and when the run will end.
 
-#include "radiosity/paper/solving/own_options.h"
 #include "radiosity/paper/solving/stop_rule.h"
 
 #include <cstdint>
+#include <memory>
 
 namespace hemilux {
+
+class OwnOptions; // engine/solving/own_options.h
 
 struct SolveOptions {
     /// The mean number of energy rays per patch and step, N_hemi of the paper. More of them mean
@@ -30,7 +32,7 @@ struct SolveOptions {
     unsigned threads = 0;
     /// The method leaves out nothing that the scene does not need (needs.h), for comparison.
     bool keep_all = false;
-    OwnOptions own = {}; ///< those of single methods: own.of<ProgressiveOptions>()
+    std::shared_ptr<const OwnOptions> own = {}; ///< those of single methods of the engine
 };
 
 } // namespace hemilux

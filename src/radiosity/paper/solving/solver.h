@@ -36,30 +36,15 @@ struct SolverInput {
     std::span<const double> target = {};
 };
 
-class StateWriter;
-class StateReader;
-
 class Solver {
   public:
     virtual ~Solver() = default;
     /// Improves the solution. Returns false when interrupted: the solution is then that of the
     /// steps before.
     virtual bool step() = 0;
-    /// Plans the following steps for this error [-], in place of that of SolveOptions::stop.
-    virtual void aim_at(double /*error*/) {}
     [[nodiscard]] virtual const Solution& solution() const = 0;
-    /// Returns the number of next steps that are worked out already: they cost no time.
-    [[nodiscard]] virtual std::uint32_t steps_ready() const { return 0; }
     /// Returns whether the solver stops by itself, e.g. as nothing is left to shoot.
     [[nodiscard]] virtual bool finished() const { return false; }
-
-    /// Saves, between two steps, all that the next ones depend on and that a new solver of the same
-    /// scene and options would not find again by itself. Throws std::logic_error unless
-    /// Method::can_resume() holds.
-    virtual void save(StateWriter& state) const;
-    /// Makes a new solver go on where the saved one was. Throws StateError for what save() cannot
-    /// have written; the solver is then of no use.
-    virtual void load(StateReader& state);
 };
 
 } // namespace hemilux

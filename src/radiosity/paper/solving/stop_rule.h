@@ -2,21 +2,16 @@
 // Decides when a run ends.
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <optional>
 
 namespace hemilux {
-
-struct Solution;
 
 /// The first rule that is met ends the run. With none given, `default_steps` does.
 struct StopRule {
     std::optional<std::uint32_t> steps = {};
     std::optional<double> seconds = {}; ///< time of the run [s]
     std::optional<double> error = {};   ///< estimated relative error [-], e.g. 0.01
-    /// Answers whether the image is useful: "Useful (Image)" of the paper, sections 3 to 5.
-    std::function<bool(const Solution& image)> useful = {};
     /// The number of rays in all after which no further step is begun: where light is rare an error
     /// may be out of reach.
     std::optional<std::uint64_t> rays = {};

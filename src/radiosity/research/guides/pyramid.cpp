@@ -4,6 +4,7 @@
 
 #include "radiosity/engine/shooting/guide.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
+#include "radiosity/paper/solving/solver.h"
 #include "radiosity/research/guiding/patch_boxes.h"
 #include "radiosity/research/guiding/pyramids.h"
 

@@ -1,12 +1,12 @@
 #include "radiosity/research/guiding/visibility_guide.h"
 
 #include "parallel/workers.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/engine/shooting/step_hook.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "radiosity/paper/rays/patch_start.h"
-#include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/research/guiding/hemisphere_importance.h"

@@ -7,7 +7,7 @@
 // by the inverse of its variance. What the factors lack to the sum, or have too much, is what the
 // patch exchanges with itself.
 
-#include "radiosity/engine/form_factors/escape_fraction.h"
+#include "radiosity/engine/factors/rows/escape_fraction.h"
 #include "radiosity/engine/form_factors/ray_counts.h"
 
 #include <cstdint>

@@ -26,6 +26,7 @@
 
 #include "radiosity/engine/linear/batch_solutions.h"
 #include "radiosity/engine/linear/surfaces.h"
+#include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -59,7 +60,7 @@ constexpr double bytes_per_link = 100, links_per_patch = 150;
 /// Black patches count as if they had this reflectance: they account for what they absorb.
 constexpr double min_reflectance = .1;
 
-class HierarchicalSolver final : public Solver {
+class HierarchicalSolver final : public EngineSolver {
   public:
     explicit HierarchicalSolver(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),

@@ -53,7 +53,7 @@ class ArrivalsRecorder final : public Strategy, StepHook {
 
     Allocation allocate(std::uint32_t, AllocatedCells&) const override {
         static constexpr std::uint16_t cell = whole_hemisphere;
-        static constexpr float all_rays = 1;
+        static constexpr double all_rays = 1;
         return {{&cell, 1}, {&all_rays, 1}};
     }
     [[nodiscard]] StepHook* step_hook() override { return this; }

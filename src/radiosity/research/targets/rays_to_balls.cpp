@@ -1,8 +1,8 @@
 #include "radiosity/research/targets/rays_to_balls.h"
 
 #include "parallel/workers.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/engine/shooting/systematic_cells.h"
-#include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -23,7 +23,7 @@ constexpr double rays_per_batch = 4096;
 /// Makes the numbers of rays whole on a line, as Bounces does (bounces_plan.cpp).
 void RaysToBalls::shoot(const SolverInput& input, const BouncePower& bounce,
                         std::uint64_t of_bounce, const Workers& workers,
-                        const std::function<void(const SeparateShots&)>& collect) const {
+                        FunctionRef<void(const SeparateShots&)> collect) const {
     const std::uint64_t stream = hash_words({of_bounce, stream_of_balls});
     std::vector<double> before{Rng(stream).uniform()}; // by sender and ball
     for (const std::uint32_t i : bounce.senders)

@@ -18,7 +18,7 @@ class RaysToBalls final : public SeparateRays {
     }
     void shoot(const SolverInput& input, const BouncePower& bounce, std::uint64_t of_bounce,
                const Workers& workers,
-               const std::function<void(const SeparateShots&)>& collect) const override;
+               FunctionRef<void(const SeparateShots&)> collect) const override;
 
     TargetBalls balls;
 

@@ -2,6 +2,7 @@
 
 #include "geometry/box.h"
 #include "geometry/elementary.h"
+#include "radiosity/engine/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"

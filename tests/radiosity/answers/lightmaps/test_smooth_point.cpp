@@ -131,7 +131,7 @@ TEST_CASE("the sun ends on a coarse sphere where it ends on the sphere", "[smoot
     const SurfaceLight light(model.mesh, PatchLight(sent));
     const Workers workers(2);
     const auto gather = [&] {
-        return gather_lightmap(model.mesh, model.bvh, light, texels,
+        return gather_texels(model.mesh, model.bvh, light, texels,
                                std::vector<bool>(texels.count()),
                                {.bake = Bake::irradiance, .rays = 16}, workers);
     };

@@ -71,7 +71,7 @@ TEST_CASE("light does not cross a wall that is thinner than a texel") {
     const Solution solution = solve(model, *find_method("stored-transport"), {}, steps(2));
     const SurfaceLight light(model.mesh, PatchLight(solution));
     const GatheredLightmap lightmap =
-        gather_lightmap(model.mesh, model.bvh, light, texels, std::vector<bool>(texels.count()),
+        gather_texels(model.mesh, model.bvh, light, texels, std::vector<bool>(texels.count()),
                         {.bake = Bake::irradiance, .rays = 16}, Workers(2));
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size / 2; ++x)
@@ -178,7 +178,7 @@ TEST_CASE("texels have the light of their points, also where a block stands on t
     const SurfaceLight light(mesh, PatchLight(sent));
     const std::vector<bool> covered = find_covered(
         mesh, floor.model.bvh, floor.texels, [] {}, workers);
-    GatheredLightmap lightmap = gather_lightmap(mesh, floor.model.bvh, light, floor.texels, covered,
+    GatheredLightmap lightmap = gather_texels(mesh, floor.model.bvh, light, floor.texels, covered,
                                                 {.bake = Bake::irradiance, .rays = 64}, workers);
     fill_texels(lightmap, floor.texels, 2);
 
@@ -212,10 +212,10 @@ TEST_CASE("texels have the light of their points, also where a block stands on t
 
     SECTION("what sends is that by the reflectance, and only what is reflected by itself is dark") {
         const GatheredLightmap radiosity =
-            gather_lightmap(mesh, floor.model.bvh, light, floor.texels, covered,
+            gather_texels(mesh, floor.model.bvh, light, floor.texels, covered,
                             {.bake = Bake::radiosity, .rays = 64}, workers);
         const GatheredLightmap indirect =
-            gather_lightmap(mesh, floor.model.bvh, light, floor.texels, covered,
+            gather_texels(mesh, floor.model.bvh, light, floor.texels, covered,
                             {.bake = Bake::indirect, .rays = 64}, workers);
         CHECK(radiosity.image.at(5, 5).x == Approx(.5f * lightmap.image.at(5, 5).x));
         // Patches reflect nothing in this light; paths find what the near block does.
@@ -237,7 +237,7 @@ TEST_CASE("texels have the light of lights without extent, unless only what is r
     const SurfaceLight light(model.mesh, PatchLight(dark));
     const std::vector<bool> covered(texels.count());
     const Workers workers(2);
-    const GatheredLightmap lightmap = gather_lightmap(model.mesh, model.bvh, light, texels, covered,
+    const GatheredLightmap lightmap = gather_texels(model.mesh, model.bvh, light, texels, covered,
                                                       {.bake = Bake::irradiance}, workers);
     for (std::size_t texel = 0; texel < texels.count(); ++texel) {
         const Vec3 way = lamp - model.mesh.frame().to_world(texels.point(texel).position);
@@ -248,7 +248,7 @@ TEST_CASE("texels have the light of lights without extent, unless only what is r
     CHECK(judge_of_lightmaps(model.mesh, model.bvh, light, texels, covered, Bake::irradiance, 3)
               .error_of(lightmap.image, 256, workers)
               .error < 1e-3);
-    const GatheredLightmap indirect = gather_lightmap(model.mesh, model.bvh, light, texels, covered,
+    const GatheredLightmap indirect = gather_texels(model.mesh, model.bvh, light, texels, covered,
                                                       {.bake = Bake::indirect}, workers);
     CHECK(indirect.image.at(9, 9) == glm::vec3(0));
 }
@@ -270,7 +270,7 @@ TEST_CASE("the error of a lightmap is known where one texel in four hundred has 
     const SurfaceLight light(model.mesh, PatchLight(dark));
     const std::vector<bool> covered(texels.count());
     const Workers workers(2);
-    GatheredLightmap lightmap = gather_lightmap(model.mesh, model.bvh, light, texels, covered,
+    GatheredLightmap lightmap = gather_texels(model.mesh, model.bvh, light, texels, covered,
                                                 {.bake = Bake::irradiance}, workers);
     double all = 0, off = 0;
     const auto spoil = [&](std::size_t texel) {
@@ -310,7 +310,7 @@ TEST_CASE("in a room of one radiosity texels at the edges of walls have all the 
     const std::vector<Vec3> sent(model.mesh.patches().size(), Vec3(1.0));
     const SurfaceLight light(model.mesh, PatchLight(sent));
     const GatheredLightmap lightmap =
-        gather_lightmap(model.mesh, model.bvh, light, texels, std::vector<bool>(texels.count()),
+        gather_texels(model.mesh, model.bvh, light, texels, std::vector<bool>(texels.count()),
                         {.bake = Bake::irradiance, .rays = 64}, Workers(2));
     std::size_t edges = 0;
     for (std::size_t k = 0; k < texels.count(); ++k) {

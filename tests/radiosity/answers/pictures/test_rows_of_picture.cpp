@@ -115,7 +115,7 @@ TEST_CASE(
     const std::vector<bool> covered(texels.count());
     std::atomic<long> all{0};
     const auto gather = [&](std::atomic<long>& polls, long end) {
-        return gather_lightmap(mesh, lit.model.bvh, light, texels, covered,
+        return gather_texels(mesh, lit.model.bvh, light, texels, covered,
                                {.rays = 4,
                                 .check =
                                     [&polls, end] {

@@ -65,7 +65,7 @@ bool finds(const std::vector<std::string>& faults, const std::string& text) {
 
 /// A solver that loses a part of the light.
 template <MakeStrategy make>
-class Losing final : public Solver {
+class Losing final : public EngineSolver {
   public:
     explicit Losing(const SolverInput& input) : solver_(shoot_with<make>(input)) {}
     bool step() override {
@@ -83,7 +83,7 @@ class Losing final : public Solver {
 };
 
 template <MakeStrategy make>
-std::unique_ptr<Solver> make_losing(const SolverInput& input) {
+std::unique_ptr<EngineSolver> make_losing(const SolverInput& input) {
     return std::make_unique<Losing<make>>(input);
 }
 

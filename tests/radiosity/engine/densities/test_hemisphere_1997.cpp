@@ -5,6 +5,7 @@
 #include "radiosity/engine/densities/subdivision_1997.h"
 #include "radiosity/engine/shooting/step_hook.h"
 #include "radiosity/engine/shooting/strategy.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/hemisphere/density_direction.h"
 #include "radiosity/paper/hemisphere/edge_division.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
@@ -49,7 +50,7 @@ struct Allocator {
     explicit Allocator(const Model& model, bool literal = false,
                        const Subdivision1997Options& numbers = {}) {
         options.literal = literal;
-        options.own.of<Subdivision1997Options>() = numbers;
+        set_own_options(options, numbers);
         const SolverInput input{model.mesh, model.bvh, options, monitor};
         strategy = find_method("hemisphere-1997")->strategy(input, hemisphere, Workers(1));
     }
@@ -304,7 +305,7 @@ TEST_CASE("End to end, every private cell gets its equal number of rays", "[slow
         SolveOptions options;
         options.rays = 40;
         options.threads = 1;
-        options.own.of<Subdivision1997Options>() = numbers;
+        set_own_options(options, numbers);
         const Allocator allocator(model, false, numbers);
         for (const std::uint32_t step : {1u, 2u}) {
             const Allocation allocation = allocator.allocate(step);
@@ -374,7 +375,7 @@ TEST_CASE("Guided steps are unbiased whatever the numbers, as printed they are n
                                            {{1, 0, 1}, true}}) {
         SolveOptions options;
         options.literal = literal;
-        options.own.of<Subdivision1997Options>() = numbers;
+        set_own_options(options, numbers);
         constexpr int runs = 24;
         const std::uint32_t guided = numbers.stored_steps + numbers.estimated_steps;
         const std::size_t patches = model.mesh.patches().size();

@@ -2,7 +2,7 @@
 #include "radiosity/engine/emitters/direct_light.h"
 #include "radiosity/engine/emitters/emitter_choice.h"
 #include "radiosity/engine/emitters/small_emitters.h"
-#include "radiosity/engine/form_factors/pair_factor.h"
+#include "radiosity/engine/factors/pairs/pair_factor.h"
 #include "radiosity/paper/rays/shot.h"
 #include "support/catch.h"
 #include "support/scenes.h"

@@ -1,6 +1,6 @@
 // Form factors by contour integration, against closed forms and against plain quadrature.
+#include "radiosity/engine/factors/pairs/exchange_area.h"
 #include "radiosity/engine/form_factors/exact_form_factors.h"
-#include "radiosity/engine/form_factors/exchange_area.h"
 #include "radiosity/engine/form_factors/matrix_quality.h"
 #include "radiosity/engine/linear/gmres.h"
 #include "radiosity/paper/sampling/rng.h"

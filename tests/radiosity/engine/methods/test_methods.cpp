@@ -1,6 +1,8 @@
 // Every method on scenes whose solution is known in closed form, patch by patch: a mean would not
 // see a broken direction law. Scenes where a method is added inherit all of this.
+#include "radiosity/engine/solving/method_option.h"
 #include "radiosity/engine/solving/one_shot.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
@@ -41,7 +43,7 @@ SolveOptions with_seed(std::uint64_t seed, double rays = 64) {
 Solution solve(const Model& model, const Method& method, SolveOptions options, std::uint32_t n) {
     if (method.name == "progressive") {
         options.rays *= 16;
-        options.own.of<OneShotOptions>().one_shot = true;
+        set_own_options(options, OneShotOptions{.one_shot = true});
         return test::solve(model, method, options, test::steps(1'000'000));
     }
     const std::uint32_t doublings = method.name == "matrix" ? 2 : 4;
@@ -303,7 +305,7 @@ TEST_CASE("monte-carlo shot by shot: brighter with each, and in the end its firs
     const Method& method = *find_method("monte-carlo");
     SolveOptions options = with_seed(5, 20);
     const Solution whole = test::solve(model, method, options, test::steps(1));
-    options.own.of<OneShotOptions>().one_shot = true;
+    set_own_options(options, OneShotOptions{.one_shot = true});
     Monitor monitor;
     const SolverInput input{model.mesh, model.bvh, options, monitor};
     const auto solver = method.make(input);

@@ -2,6 +2,7 @@
 // are the same, within standard errors where the engine draws others.
 #include "radiosity/engine/densities/subdivision_1997.h"
 #include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "support/catch.h"
 #include "support/example_scenes.h"
 #include "support/scenes.h"
@@ -113,7 +114,7 @@ TEST_CASE("Section 4 on a page has the engine's bits for other numbers of parts 
          {Subdivision1997Options{1, 2, 1}, {3, 0, 4}, {0, 2, 16}, {0, 0, 64}, {1, 1, 64}})
         for (const bool literal : {false, true}) {
             SolveOptions options = with_rays(30, literal);
-            options.own.of<Subdivision1997Options>() = numbers;
+            set_own_options(options, numbers);
             CAPTURE(numbers.stored_steps, numbers.estimated_steps, numbers.parts);
             check_same(Model(test::furnace_l_shape(.5)), of_1997, options, 4);
         }

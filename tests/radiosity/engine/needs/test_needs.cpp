@@ -1,12 +1,13 @@
 // What is left out changes nothing: the same solution with all that is not needed and without it.
 #include "parallel/workers.h"
 #include "radiosity/engine/densities/density.h"
-#include "radiosity/engine/form_factors/point_to_patch.h"
+#include "radiosity/engine/factors/pairs/point_to_patch.h"
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/needs/lit_facets.h"
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/engine/solving/left_out.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/guides.h"
@@ -374,7 +375,7 @@ TEST_CASE("What is left out keeps every byte where that is promised, else the re
                     const std::string name(method->name);
                     const bool bytes = keeps_every_byte(name, guide, c.omission);
                     SolveOptions options = with_rays(bytes ? 4 : 64, literal);
-                    options.own.of<GuideChoice>().guide = guide;
+                    set_own_options(options, GuideChoice{.guide = guide});
                     const std::uint32_t steps = bytes ? 2 : 6;
                     const Solution with = solve_with(mesh, needs, *method, options, steps);
                     options.keep_all = true;

@@ -1,7 +1,8 @@
 // Progressive radiosity against the matrix, its energy, and its options.
-#include "radiosity/engine/form_factors/pair_factor.h"
+#include "radiosity/engine/factors/pairs/pair_factor.h"
 #include "radiosity/engine/progressive/progressive_pass.h"
 #include "radiosity/engine/solving/one_shot.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -23,8 +24,8 @@ SolveOptions coarse(double rays = 64) {
 /// One pass.
 Solution to_the_end(const Model& model, const ProgressiveOptions& chosen,
                     SolveOptions options = coarse(), std::uint32_t* steps = nullptr) {
-    options.own.of<ProgressiveOptions>() = chosen;
-    options.own.of<OneShotOptions>().one_shot = true;
+    set_own_options(options, chosen);
+    set_own_options(options, OneShotOptions{.one_shot = true});
     Monitor monitor;
     const SolverInput input{model.mesh, model.bvh, options, monitor};
     const auto solver = find_method("progressive")->make(input);
@@ -106,7 +107,7 @@ TEST_CASE("Progressive radiosity shoots the brightest patch first, one at a time
     const Model model(test::cube_with_lit_floor(3, .5)); // the first nine patches emit
     Monitor monitor;
     SolveOptions options = coarse();
-    options.own.of<OneShotOptions>().one_shot = true;
+    set_own_options(options, OneShotOptions{.one_shot = true});
     const SolverInput input{model.mesh, model.bvh, options, monitor};
     const auto solver = find_method("progressive")->make(input);
     double before = 0;
@@ -134,8 +135,8 @@ TEST_CASE("The ambient term makes early solutions better and is gone at the end"
     const Solution end = to_the_end(model, {}, options);
     const auto early = [&](bool ambient) {
         SolveOptions chosen = options;
-        chosen.own.of<OneShotOptions>().one_shot = true;
-        chosen.own.of<ProgressiveOptions>().ambient = ambient;
+        set_own_options(chosen, OneShotOptions{.one_shot = true});
+        set_own_options(chosen, ProgressiveOptions{.ambient = ambient});
         Monitor monitor;
         const SolverInput input{model.mesh, model.bvh, chosen, monitor};
         const auto solver = find_method("progressive")->make(input);

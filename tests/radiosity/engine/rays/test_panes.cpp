@@ -6,6 +6,7 @@
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/engine/rays/point_emitter.h"
+#include "radiosity/engine/solving/method_option.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"

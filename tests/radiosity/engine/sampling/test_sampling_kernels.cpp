@@ -127,10 +127,9 @@ TEST_CASE("every instruction set finds the same places") {
 TEST_CASE("every instruction set counts the same rays into the cells of a patch") {
     Rng rng(7);
     for (std::size_t cells = 1; cells <= 64; ++cells) {
-        std::vector<float> up_to; // some of no width, at the end too
+        std::vector<double> up_to; // some of no width, at the end too
         for (std::size_t k = 0; k < cells; ++k)
-            up_to.push_back((k > 0 ? up_to[k - 1] : .01f) +
-                            static_cast<float>(std::max(rng.uniform() - .4, 0.0)));
+            up_to.push_back((k > 0 ? up_to[k - 1] : .01) + std::max(rng.uniform() - .4, 0.0));
         const double before = 1e6 * rng.uniform(), rays = 100 * rng.uniform() / double(cells);
         const PatchOnLine line{before, before + rays * up_to.back(), rays, up_to.back()};
         for (const InstructionSet set : available_instruction_sets()) {

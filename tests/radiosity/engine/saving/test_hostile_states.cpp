@@ -3,6 +3,7 @@
 
 #include "radiosity/engine/linear/energy_ledger.h"
 #include "radiosity/engine/saving/state.h"
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/solution/solve_error.h"
 #include "support/catch.h"
 #include "support/guides.h"
@@ -98,7 +99,7 @@ TEST_CASE("changed states are refused, or go on to finite numbers", "[slow][stat
             SolveOptions options;
             options.rays = 2;
             options.threads = 1;
-            options.own.of<GuideChoice>().guide = guide;
+            set_own_options(options, GuideChoice{.guide = guide});
             Monitor monitor;
             const SolverInput input{model.mesh, model.bvh, options, monitor};
             StateWriter saved;

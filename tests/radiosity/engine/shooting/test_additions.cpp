@@ -3,6 +3,7 @@
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/shooting/strategy.h"
+#include "radiosity/engine/solving/method_option.h"
 #include "radiosity/paper/solving/mean_of_steps.h"
 #include "support/catch.h"
 #include "support/scenes.h"

@@ -1,4 +1,5 @@
 // Patches that are divided further: nothing is lost, and rays find the pieces.
+#include "radiosity/engine/cells/refine.h"
 #include "radiosity/light/division/adaptive_division.h"
 #include "radiosity/light/division/division_weights.h"
 #include "radiosity/light/division/inherited.h"
@@ -74,7 +75,7 @@ TEST_CASE("refined patches cover their facets, and rays find each of them") {
     Rng rng(static_cast<std::uint64_t>(seed));
     for (int round = 0; round < 3; ++round) {
         const std::size_t before = model.mesh.patches().size();
-        model.mesh.refine(random_levels(model.mesh, rng));
+        refine(model.mesh, random_levels(model.mesh, rng));
         CAPTURE(two_sided, max_edge, seed, round);
         CHECK(model.mesh.patches().size() > before);
         CHECK(area_of(model.mesh) == Approx(area).epsilon(1e-10));
@@ -86,9 +87,9 @@ TEST_CASE("refined patches cover their facets, and rays find each of them") {
 
 TEST_CASE("a level of refinement makes four of a patch, or two of a long one") {
     Model model(some_shapes());
-    model.mesh.refine(std::vector<std::uint8_t>{1, 1, 1, 1});
+    refine(model.mesh, std::vector<std::uint8_t>{1, 1, 1, 1});
     CHECK(model.mesh.patches().size() == 4 + 4 + 4 + 2);
-    model.mesh.refine(std::vector<std::uint8_t>(14, 0));
+    refine(model.mesh, std::vector<std::uint8_t>(14, 0));
     CHECK(model.mesh.patches().size() == 14);
 }
 
@@ -109,7 +110,7 @@ TEST_CASE("pieces of a patch have what it had, and their sums over the area stay
     std::vector<Patch> patches(model.mesh.patches().begin(), model.mesh.patches().end());
     Rng rng(3);
     for (int round = 0; round < 2; ++round) {
-        const auto parents = model.mesh.refine(random_levels(model.mesh, rng));
+        const auto parents = refine(model.mesh, random_levels(model.mesh, rng));
         REQUIRE(parents.size() == model.mesh.patches().size());
         for (std::uint32_t i = 0; i < parents.size(); ++i) {
             CHECK(model.mesh.patches()[i].facet == patches[parents[i]].facet);
@@ -124,7 +125,7 @@ TEST_CASE("pieces of a patch have what it had, and their sums over the area stay
 TEST_CASE("the light of a furnace is the same on refined patches") {
     Model model(test::furnace_l_shape(.5));
     Rng rng(7);
-    model.mesh.refine(random_levels(model.mesh, rng));
+    refine(model.mesh, random_levels(model.mesh, rng));
     const Solution solution =
         test::solve(model, *find_method("stored-transport"), {}, test::steps(2));
     for (const Vec3& radiosity : solution.radiosity)

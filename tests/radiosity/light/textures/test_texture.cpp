@@ -1,5 +1,6 @@
 // Means of textures over polygons, beside sums over many points.
 
+#include "radiosity/engine/cells/refine.h"
 #include "radiosity/light/textures/scene_textures.h"
 #include "radiosity/light/textures/texture.h"
 
@@ -172,7 +173,7 @@ TEST_CASE("patches have the means of their own parts of a texture", "[texture]")
     }
     CHECK(glm::length(sum / area - whole.material(0).reflectance) < 1e-9);
     const std::vector<std::uint8_t> levels(1, 2);
-    whole.refine(levels);
+    refine(whole, levels);
     sum = Vec3(0.0);
     for (const Patch& patch : whole.patches())
         sum += patch.area * whole.material(patch).reflectance;

@@ -1,7 +1,5 @@
 // The pages of sections 2 and 3.1, which find form factors, and what the page of section 5 has of
 // its own: all on the paper's storey alone.
-#include "radiosity/paper/pages/share_line.h"
-#include "radiosity/paper/solving/progressive_options.h"
 #include "support/catch.h"
 #include "support/paper_solve.h"
 #include "support/scenes.h"
@@ -138,10 +136,9 @@ TEST_CASE("The matrix and progressive radiosity report their errors") {
 TEST_CASE("Each shot leaves less unshot, and the ambient term shows what it is") {
     const PaperModel model(test::room_with_block());
     const auto first_images = [&](bool ambient) {
-        SolveOptions options = with_rays(16);
-        options.own.of<ProgressiveOptions>().ambient = ambient;
+        const SolveOptions options = with_rays(16);
         Monitor monitor;
-        const auto solver = plain::progressive({model.mesh, model.bvh, options, monitor});
+        const auto solver = plain::progressive({model.mesh, model.bvh, options, monitor}, ambient);
         std::vector<double> means;
         double unshot = solver->solution().energy.unshot.y;
         for (int shot = 0; shot < 20; ++shot) {
@@ -184,14 +181,11 @@ TEST_CASE("The paper's procedure goes on until the image is useful") {
 
 TEST_CASE("Triangles share the line of their patch's rays, and none is left out") {
     const plain::Due due{.patch = 0, .key = 0, .begin = .25, .end = 100.75};
-    plain::ShareLine line(due, 40);
-    for (const double share : {.5, 0.0, 1e-12, .5})
-        line.add(share);
-    CHECK(line.rounded(0).number == 20);
-    CHECK(line.rounded(1).number == 0);
-    CHECK(line.rounded(2).number == 0); // as printed, this power is lost
-    CHECK(line.on_line(0).number + line.on_line(2).number + line.on_line(3).number == 100);
-    CHECK(line.on_line(1).number == 0);
-    CHECK(line.on_line(2).divisor > 0); // its ray is rare, and carries the more
-    CHECK(line.on_line(2).divisor < 1e-4);
+    const double dim = 1e-12; // of all rays
+    CHECK(plain::rays_on_line(due, 0, .5).number + plain::rays_on_line(due, .5, .5 + dim).number +
+              plain::rays_on_line(due, .5 + dim, 1).number ==
+          100);
+    CHECK(plain::rays_on_line(due, .5, .5).number == 0);
+    CHECK(plain::rays_on_line(due, .5, .5 + dim).divisor > 0); // rare, and carries the more
+    CHECK(plain::rays_on_line(due, .5, .5 + dim).divisor < 1e-4);
 }

@@ -115,7 +115,7 @@ TEST_CASE("a pilot finds the power of a ray") {
     CHECK(mean.solution.rays_energy == 11);
 
     MeanOfSteps unequal(fixture.input, false);
-    CHECK(unequal.find_ray_power({}));
+    CHECK(unequal.find_ray_power([](double, StepResult&) { return false; })); // there is no pilot
     CHECK(unequal.ray_power == std::numeric_limits<double>::infinity());
 }
 

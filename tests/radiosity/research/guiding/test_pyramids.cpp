@@ -1,5 +1,6 @@
 // The pyramidal guide: which patches lie in a pyramid, what a tree of boxes finds of them, and that
 // nothing hides between three corners.
+#include "radiosity/engine/solving/own_options.h"
 #include "radiosity/research/guiding/pyramids.h"
 
 #include "parallel/workers.h"
@@ -23,7 +24,7 @@ namespace {
 
 SolveOptions by_pyramids(std::uint64_t seed = 3) {
     SolveOptions options;
-    options.own.of<GuideChoice>().guide = test::guide_named("pyramid");
+    set_own_options(options, GuideChoice{.guide = test::guide_named("pyramid")});
     options.seed = seed;
     return options;
 }
@@ -185,7 +186,7 @@ TEST_CASE("What stands between three empty corners is found") {
 
     const auto share_of_rays = [&](const Guide* guide) {
         SolveOptions options = by_pyramids();
-        options.own.of<GuideChoice>().guide = guide;
+        set_own_options(options, GuideChoice{.guide = guide});
         options.threshold = threshold;
         const SolverInput input{model.mesh, model.bvh, options, monitor};
         const auto strategy = find_method("hemisphere")->strategy(input, hemisphere, Workers(1));

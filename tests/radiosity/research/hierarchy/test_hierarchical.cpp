@@ -1,7 +1,7 @@
 // Hierarchical radiosity: trees over patches, links that cover each pair once, their factors, and
 // the solution.
-#include "radiosity/engine/form_factors/exchange_area.h"
-#include "radiosity/engine/form_factors/pair_factor.h"
+#include "radiosity/engine/factors/pairs/exchange_area.h"
+#include "radiosity/engine/factors/pairs/pair_factor.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/solution/solve_error.h"
 #include "radiosity/research/hierarchy/links.h"

@@ -17,12 +17,11 @@ inline void find_places(const double* sums, std::size_t size, std::size_t count,
 /// Finds the rays, which stand at whole numbers, without a branch and without a number of rays that
 /// is not whole.
 inline std::uint64_t last_rays(const PatchOnLine& line, std::size_t count,
-                               const float* __restrict up_to, std::int64_t* __restrict last) {
-    const double before = line.before, after = line.after, rays = line.rays;
-    const float all = line.all;
+                               const double* __restrict up_to, std::int64_t* __restrict last) {
+    const double before = line.before, after = line.after, rays = line.rays, all = line.all;
     for (std::size_t k = 0; k < count; ++k) {
         const double end = before + rays * up_to[k];
-        last[k + 1] = static_cast<std::int64_t>(up_to[k] < all ? end : after);
+        last[k + 1] = static_cast<std::int64_t>(up_to[k] < all && end < after ? end : after);
     }
     std::uint64_t with_rays = 0;
     for (std::size_t k = 0; k < count; ++k)
