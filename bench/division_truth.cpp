@@ -151,7 +151,7 @@ class Truth {
     Truth(const Scene& scene, const MeshOptions& options, const Settings& settings)
         : scene_(scene), options_(options) {
         const Mesh mesh = layered_mesh(scene, options);
-        const MadeTracer made = make_tracer(mesh, true, settings.threads);
+        const MadeTracer made = make_tracer(mesh, settings.threads);
         points_ = draw_points(mesh, weights_of(settings, mesh, *made.tracer), settings.points);
         const PathReference reference(mesh, *made.tracer);
         constexpr std::size_t points_per_chunk = 16;

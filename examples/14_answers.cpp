@@ -23,7 +23,7 @@ int main(int count, char** arguments) {
     Monitor monitor;
     RunWatcher watcher;
     SidedMesh sided = divide_with_sides(read_gltf(arguments[1]).scene, Sides::automatic,
-                                        {.max_edge = .5}, false, watcher);
+                                        {.max_edge = .5}, watcher);
     const auto problem = std::make_shared<const Problem>(
         prepare(std::make_shared<Mesh>(std::move(sided.mesh)), std::move(sided.made), {}, watcher));
 

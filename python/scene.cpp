@@ -117,14 +117,9 @@ const WideBvh& PythonMesh::tree(unsigned threads) const {
 }
 
 std::shared_ptr<const Problem> PythonMesh::problem(bool keep_all, unsigned threads) const {
-    std::shared_ptr<const Tracer> tracer;
-    if (keep_all || needs_tree(*mesh_)) {
-        (void)tree(threads);
-        tracer = tree_;
-    } else
-        tracer = make_tracer(*mesh_, false, threads).tracer;
+    (void)tree(threads);
     return std::make_shared<const Problem>(
-        prepare(mesh_, std::move(tracer), {.keep_all = keep_all, .threads = threads}));
+        prepare(mesh_, tree_, {.keep_all = keep_all, .threads = threads}));
 }
 
 void PythonMesh::check_solvable() const {

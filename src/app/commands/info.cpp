@@ -73,7 +73,7 @@ int info(const InfoSettings& settings) {
             turn_faces(scene, *report.sides);
         const Mesh mesh = divide_scene(std::move(scene), asked);
         report.patches = mesh.patches().size();
-        const MadeTracer made = make_tracer(mesh, needs_tree(mesh));
+        const MadeTracer made = make_tracer(mesh);
         if (const std::string slow = crowd_text(made.crowd, mesh); !slow.empty()) {
             log_line(settings.verbosity, Verbosity::normal, "warning: " + slow);
             report.warnings.push_back(slow);

@@ -313,8 +313,7 @@ void check_unchanged(const LitObj& file, const Mesh& mesh) {
             continue;
         const auto corners = file.corners_of(facet.face);
         for (const std::uint32_t vertex : facet.vertex)
-            if (std::ranges::find(corners, scene.number_read(vertex), &LitObj::Corner::vertex) ==
-                corners.end())
+            if (std::ranges::find(corners, vertex, &LitObj::Corner::vertex) == corners.end())
                 throw InputError(file.path(), "the file has changed since it was read");
     }
 }

@@ -19,7 +19,6 @@
 #include "io/scene_files/vs3.h"
 #include "parallel/stopwatch.h"
 #include "radiosity/answers/asked/text.h"
-#include "radiosity/engine/needs/unused_vertices.h"
 #include "radiosity/light/layers/layered_mesh.h"
 
 #include <algorithm>
@@ -209,8 +208,6 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
     log_warnings(verbosity, read.warnings);
     check_solvable(read, settings.path);
     const double seconds = reading.seconds();
-    if (!options.keep_all)
-        drop_unused_vertices(read.scene);
     MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods, before);
     need.results = bytes_of_results(patches_of(read.scene, settings.mesh));
     check_memory(need, settings.memory, settings.path);

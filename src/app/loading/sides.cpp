@@ -13,7 +13,7 @@ SidedMesh divide_with_sides(Scene scene, const SceneSettings& settings, const So
     return as_of_file(settings, [&] {
         MeshOptions mesh = settings.mesh;
         mesh.threads = options.threads;
-        return divide_with_sides(std::move(scene), settings.sides, mesh, options.keep_all, watcher);
+        return divide_with_sides(std::move(scene), settings.sides, mesh, watcher);
     });
 }
 

@@ -41,7 +41,7 @@ std::array<std::uint32_t, 4> points_of(const Scene& scene, const Facet& facet,
                                        const PrimitiveOrigin& origin) {
     std::array<std::uint32_t, 4> points{};
     for (std::size_t k = 0; k < points.size(); ++k)
-        points[k] = scene.number_read(facet.vertex[k]) - origin.first_vertex;
+        points[k] = facet.vertex[k] - origin.first_vertex;
     return points;
 }
 

@@ -19,9 +19,6 @@ TEST_CASE("info shows what a scene does not need") {
     place.write_room();
     const std::string colours = place.hemilux("info room.obj").out;
     CHECK_THAT(colours, Contains("solve leaves out") && Contains("convex enclosure"));
-    CHECK_THAT(colours, !Contains("grey"));
-    CHECK_THAT(place.hemilux("info room.obj --reflectance '*=.5' --emission lamp=3").out,
-               Contains("two of three colour channels"));
     CHECK_THAT(place.hemilux("info room.obj --reflectance '*=0'").out,
                Contains("nothing reflects"));
     CHECK_THAT(place.hemilux("info room.obj --two-sided").out, Contains("no light can reach"));
@@ -132,7 +129,7 @@ struct Needless {
     const char* name;
     ObjText scene;
     const char* materials;
-    const char* why; ///< in `left_out`; empty: it is gone from the scene
+    const char* why; ///< in `left_out`
     std::vector<std::pair<const char*, Saves>> methods;
     const char* arguments = "";
 };
@@ -143,20 +140,12 @@ std::vector<Needless> needless_scenes() {
                                                          {"hemisphere-1997", rays_and_bytes},
                                                          {"matrix", rays},
                                                          {"stored-transport", work_alone}};
-    const std::vector<std::pair<const char*, Saves>> linear{{"matrix", work_alone}};
     const char* const unlit = "no light can reach them";
     ObjText divided_panel;
     divided_panel.box({0, 0, 0}, {4, 3, 4}, true, "lamp", 2);
     ObjText twins = ObjText().lit_room();
     for (int k = 0; k < 2; ++k)
         twins.quad("white", {{{1, 1, 1}, {1, 1, 3}, {3, 1, 3}, {3, 1, 1}}});
-    ObjText unused; // before those in use, which all get other numbers
-    for (int k = 0; k < 100; ++k)
-        unused.vertex({.01 * k, 1, 1});
-    unused.lit_room().block(1, 1);
-    ObjText few;
-    few.quad("lamp", {{{0, 2, 0}, {1, 2, 0}, {1, 2, 1}, {0, 2, 1}}});
-    few.quad("white", {{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}});
     const ObjText room = ObjText().lit_room().block(1, 1);
     return {
         {"the outside of a room", room, coloured, unlit, all, "--two-sided"},
@@ -178,14 +167,6 @@ std::vector<Needless> needless_scenes() {
          "newmtl white\nKd 0 0 0\nnewmtl lamp\nKd 0 0 0\nKe 9 8 7\n",
          "nothing reflects that light reaches",
          {{"hemisphere", rays_and_bytes}, {"hemisphere-1997", rays_and_bytes}}},
-        {"no blue light", room, "newmtl white\nKd .7 .6 .5\nnewmtl lamp\nKd .7 .6 .5\nKe 9 8 0\n",
-         "nothing is emitted there", linear},
-        {"a red lamp", room, "newmtl white\nKd .7 .6 .5\nnewmtl lamp\nKd .7 .6 .5\nKe 9 0 0\n",
-         "nothing is emitted there", linear},
-        {"all grey", room, "newmtl white\nKd .5 .5 .5\nnewmtl lamp\nKd .5 .5 .5\nKe 9 9 9\n",
-         "grey", linear},
-        {"unused vertices", unused, coloured, "", {{"hemisphere", work_alone}}},
-        {"few triangles", few, coloured, "no more than 8 triangles", {{"stratified", work_alone}}},
     };
 }
 

@@ -44,7 +44,7 @@ Problem prepare(std::shared_ptr<Mesh> mesh, MadeTracer made, const ProblemChoice
         if (part == 1)
             problem.needs = needs_of(of, choices.keep_all);
         else if (!made.tracer)
-            made = make_tracer(of, choices.keep_all || needs_tree(of), choices.threads);
+            made = make_tracer(of, choices.threads);
     });
     problem.tracer = std::move(made.tracer);
     problem.tree = made.tree;

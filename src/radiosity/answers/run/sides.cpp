@@ -84,7 +84,7 @@ std::string both_sides_text(const Scene& scene) {
                      : "";
 }
 
-SidedMesh divide_with_sides(Scene scene, Sides sides, const MeshOptions& options, bool keep_tree,
+SidedMesh divide_with_sides(Scene scene, Sides sides, const MeshOptions& options,
                             Watcher& watcher) {
     if (sides == Sides::front)
         for (Facet& facet : scene.facets)
@@ -96,7 +96,7 @@ SidedMesh divide_with_sides(Scene scene, Sides sides, const MeshOptions& options
     }
     const auto divide = [&](Scene sided) {
         Mesh mesh = layered_mesh(std::move(sided), options);
-        MadeTracer made = make_tracer(mesh, keep_tree || needs_tree(mesh), options.threads);
+        MadeTracer made = make_tracer(mesh, options.threads);
         return SidedMesh{std::move(mesh), std::move(made)};
     };
     SidedMesh sided = divide(std::move(scene));

@@ -20,11 +20,10 @@ struct SidedMesh {
 };
 
 /// Divides the faces and turns them where `sides` says so; `options` are two-sided with
-/// Sides::both. `keep_tree` has rays traced by a tree where a few facets need none. The watcher is
-/// told what was turned, what looks away all the same, or what emitters emit that shine to both
-/// sides. Throws as Mesh does.
+/// Sides::both. The watcher is told what was turned, what looks away all the same, or what emitters
+/// emit that shine to both sides. Throws as Mesh does.
 [[nodiscard]] SidedMesh divide_with_sides(Scene scene, Sides sides, const MeshOptions& options,
-                                          bool keep_tree, Watcher& watcher);
+                                          Watcher& watcher);
 
 /// Returns "group shade", or "groups a, b, c, d and 5 more".
 [[nodiscard]] std::string names_of_groups(const std::vector<std::uint32_t>& groups,

@@ -1,33 +1,13 @@
 #include "radiosity/engine/solving/left_out.h"
 
-#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/transport_figures.h"
 #include "radiosity/paper/solution/solution.h"
-
-#include <array>
 
 namespace hemilux {
 namespace {
 
 std::string patches(std::size_t n) { return std::to_string(n) + (n == 1 ? " patch" : " patches"); }
-
-void add_channels(const Needs& needs, std::vector<LeftOut>& list) {
-    int dark = 0, alike = 0;
-    for (const int c : {0, 1, 2})
-        if (!needs.solves(c))
-            ++(needs.channel[static_cast<std::size_t>(c)] == Needs::dark ? dark : alike);
-    const auto add = [&](int number, const char* why) {
-        constexpr std::array<const char*, 4> of_three{"", "one of three ", "two of three ",
-                                                      "all three "};
-        const std::string count = of_three[static_cast<std::size_t>(number)];
-        if (number > 0)
-            list.push_back({count + "colour channels", why, count + "linear systems"});
-    };
-    add(alike, alike == 2 ? "all reflectances and emissions are grey"
-                          : "all reflectances and emissions are those of another channel");
-    add(dark, "nothing is emitted there");
-}
 
 void add_idle_patches(const Needs& needs, const MethodWork& work, std::vector<LeftOut>& list) {
     const bool hemispheres = work.densities && needs.visibility;
@@ -45,8 +25,6 @@ void add_idle_patches(const Needs& needs, const MethodWork& work, std::vector<Le
 
 std::vector<LeftOut> left_out_of(const Needs& needs, const MethodWork& work) {
     std::vector<LeftOut> list;
-    if (work.linear_systems)
-        add_channels(needs, list);
     if (!needs.visibility && work.densities)
         list.push_back(
             {"densities", "in a convex enclosure all are 1", "all density rays and bytes"});
@@ -57,20 +35,13 @@ std::vector<LeftOut> left_out_of(const Needs& needs, const MethodWork& work) {
         list.push_back({"all passes but the first", "nothing reflects that light reaches",
                         "all steps but one, and the search for their length"});
     add_idle_patches(needs, work, list);
-    if (!needs.tree)
-        list.push_back({"the bounding volume hierarchy",
-                        "all are tested at once, as there are no more than " +
-                            std::to_string(max_triangles_without_tree) +
-                            " triangles (or halves of quads)",
-                        "visits to boxes"});
     return list;
 }
 
 } // namespace
 
 std::vector<LeftOut> left_out(const Needs& needs) {
-    return left_out_of(needs,
-                       {.densities = true, .pairs = true, .linear_systems = true, .passes = true});
+    return left_out_of(needs, {.densities = true, .pairs = true, .passes = true});
 }
 
 std::vector<LeftOut> left_out(const Needs& needs, const MethodWork& work,
