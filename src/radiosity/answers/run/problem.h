@@ -16,7 +16,7 @@ namespace hemilux {
 struct Problem {
     std::shared_ptr<Mesh> mesh;
     std::shared_ptr<const Tracer> tracer; ///< of the mesh, also where its patches are divided
-    std::optional<BvhQuality> tree = {};  ///< MadeTracer
+    BvhQuality tree = {};                 ///< MadeTracer
     bool keep_all = false;                ///< nothing is left out (SolveOptions::keep_all)
     unsigned threads = 0;                 ///< 0: one per core; nothing found depends on it
     Needs needs = {};
