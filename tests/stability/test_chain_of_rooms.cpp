@@ -6,6 +6,7 @@
 #include "radiosity/engine/linear/conjugate_gradients.h"
 #include "radiosity/engine/linear/radiosity_system.h"
 #include "radiosity/engine/linear/surfaces.h"
+#include "radiosity/engine/needs/find_needs.h"
 #include "support/catch.h"
 #include "support/families/builders.h"
 #include "support/layered_model.h"
@@ -52,8 +53,9 @@ TEST_CASE("The matrix of a hundred white rooms in a row is solved") {
     samples.trace_up_to(64, workers, monitor);
     const SparseMatrix f = samples.matrix();
     const std::size_t n = f.rows();
-    const ArrivingLight light = arriving_light([&](auto x, auto y) { f.multiply(x, y, workers); },
-                                               model.mesh, std::vector<Vec3>(n));
+    const ArrivingLight light =
+        arriving_light([&](auto x, auto y) { f.multiply(x, y, workers); }, model.mesh,
+                       std::vector<Vec3>(n), find_needs(model.mesh));
     CHECK(light.unsolved == 0);
     std::vector<double> leaving(n), arriving(n);
     for (std::uint32_t i = 0; i < n; ++i)
@@ -98,7 +100,8 @@ TEST_CASE("Where a solver ends before the light does, its bound holds") {
             y[i] = x[i] + passed * (before - 2 * x[i] + after);
         }
     };
-    const ArrivingLight light = arriving_light(multiply, model.mesh, std::vector<Vec3>(n));
+    const ArrivingLight light =
+        arriving_light(multiply, model.mesh, std::vector<Vec3>(n), find_needs(model.mesh));
     // What arrives, h = F E + rho F h, by elimination in its three diagonals.
     std::vector<double> emission(n), right(n), diagonal(n), truth(n);
     for (std::uint32_t i = 0; i < n; ++i)

@@ -19,6 +19,9 @@ TEST_CASE("info shows what a scene does not need") {
     place.write_room();
     const std::string colours = place.hemilux("info room.obj").out;
     CHECK_THAT(colours, Contains("solve leaves out") && Contains("convex enclosure"));
+    CHECK_THAT(colours, !Contains("grey"));
+    CHECK_THAT(place.hemilux("info room.obj --reflectance '*=.5' --emission lamp=3").out,
+               Contains("two of three colour channels"));
     CHECK_THAT(place.hemilux("info room.obj --reflectance '*=0'").out,
                Contains("nothing reflects"));
     CHECK_THAT(place.hemilux("info room.obj --two-sided").out, Contains("no light can reach"));
@@ -140,6 +143,7 @@ std::vector<Needless> needless_scenes() {
                                                          {"hemisphere-1997", rays_and_bytes},
                                                          {"matrix", rays},
                                                          {"stored-transport", work_alone}};
+    const std::vector<std::pair<const char*, Saves>> linear{{"matrix", work_alone}};
     const char* const unlit = "no light can reach them";
     ObjText divided_panel;
     divided_panel.box({0, 0, 0}, {4, 3, 4}, true, "lamp", 2);
@@ -167,6 +171,12 @@ std::vector<Needless> needless_scenes() {
          "newmtl white\nKd 0 0 0\nnewmtl lamp\nKd 0 0 0\nKe 9 8 7\n",
          "nothing reflects that light reaches",
          {{"hemisphere", rays_and_bytes}, {"hemisphere-1997", rays_and_bytes}}},
+        {"no blue light", room, "newmtl white\nKd .7 .6 .5\nnewmtl lamp\nKd .7 .6 .5\nKe 9 8 0\n",
+         "nothing is emitted there", linear},
+        {"a red lamp", room, "newmtl white\nKd .7 .6 .5\nnewmtl lamp\nKd .7 .6 .5\nKe 9 0 0\n",
+         "nothing is emitted there", linear},
+        {"all grey", room, "newmtl white\nKd .5 .5 .5\nnewmtl lamp\nKd .5 .5 .5\nKe 9 9 9\n",
+         "grey", linear},
     };
 }
 

@@ -11,7 +11,7 @@ namespace hemilux {
 
 SolvedBatch solve_closed(const FormFactorProduct& multiply, const Transport& transport,
                          const SolverInput& input, std::vector<Vec3>& radiosity) {
-    ArrivingLight light = arriving_light(multiply, input.mesh, radiosity);
+    ArrivingLight light = arriving_light(multiply, input.mesh, radiosity, input.needs);
     const EnergyBalance energy = close_energy(transport, light.incident);
     for (std::size_t i = 0; i < radiosity.size(); ++i)
         radiosity[i] = transport.emission[i] + transport.reflectance[i] * light.incident[i];

@@ -38,7 +38,7 @@ class HemicubeMatrix final : public EngineSolver {
         // Whether it is solved is checked below, as its error is not estimated.
         const std::vector<Vec3> incident =
             arriving_light([&](auto x, auto y) { factors.matrix.multiply(x, y, workers); },
-                           input_.mesh, solution_.radiosity)
+                           input_.mesh, solution_.radiosity, input_.needs)
                 .incident;
         if (input_.monitor.interrupted)
             return false;

@@ -3,6 +3,7 @@
 #include "radiosity/engine/linear/gmres.h"
 #include "radiosity/engine/linear/unsolved_light.h"
 #include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/scene/needs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,11 +30,17 @@ double residual_of(const Mesh& mesh, int channel, std::span<const double> x,
 } // namespace
 
 ArrivingLight arriving_light(const FormFactorProduct& multiply, const Mesh& mesh,
-                             std::span<const Vec3> radiosity) {
+                             std::span<const Vec3> radiosity, const Needs& needs) {
     const std::size_t n = radiosity.size();
     std::vector<double> emission(n), rho(n), first(n), x(n), arriving(n);
     ArrivingLight light{std::vector<Vec3>(n)};
     for (int c = 0; c < 3; ++c) {
+        if (!needs.solves(c)) {
+            const int same = needs.channel[static_cast<std::size_t>(c)];
+            for (Vec3& incident : light.incident)
+                incident[c] = same == Needs::dark ? 0 : incident[same];
+            continue;
+        }
         double lost_at_least = 1;
         for (std::uint32_t i = 0; i < n; ++i) {
             emission[i] = mesh.material(i).emission[c];

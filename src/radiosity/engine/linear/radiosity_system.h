@@ -10,6 +10,7 @@
 namespace hemilux {
 
 class Mesh;
+struct Needs;
 
 /// Computes y = F x, by patch.
 using FormFactorProduct = std::function<void(std::span<const double> x, std::span<double> y)>;
@@ -25,7 +26,8 @@ struct ArrivingLight {
 /// Returns what arrives at each patch where B = E + rho F B. It is found as B = E + R, R = rho F (E
 /// + R), channel by channel, by GMRES from `radiosity` on. The residual is relative to the
 /// reflected light R: beside a tiny emitter's light all of it could be too small to count.
+/// Only the channels that the needs tell to solve are solved.
 [[nodiscard]] ArrivingLight arriving_light(const FormFactorProduct& multiply, const Mesh& mesh,
-                                           std::span<const Vec3> radiosity);
+                                           std::span<const Vec3> radiosity, const Needs& needs);
 
 } // namespace hemilux

@@ -2,12 +2,32 @@
 
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/transport_figures.h"
+#include "radiosity/paper/scene/needs.h"
 #include "radiosity/paper/solution/solution.h"
+
+#include <array>
 
 namespace hemilux {
 namespace {
 
 std::string patches(std::size_t n) { return std::to_string(n) + (n == 1 ? " patch" : " patches"); }
+
+void add_channels(const Needs& needs, std::vector<LeftOut>& list) {
+    int dark = 0, alike = 0;
+    for (const int c : {0, 1, 2})
+        if (!needs.solves(c))
+            ++(needs.channel[static_cast<std::size_t>(c)] == Needs::dark ? dark : alike);
+    const auto add = [&](int number, const char* why) {
+        constexpr std::array<const char*, 4> of_three{"", "one of three ", "two of three ",
+                                                      "all three "};
+        const std::string count = of_three[static_cast<std::size_t>(number)];
+        if (number > 0)
+            list.push_back({count + "colour channels", why, count + "linear systems"});
+    };
+    add(alike, alike == 2 ? "all reflectances and emissions are grey"
+                          : "all reflectances and emissions are those of another channel");
+    add(dark, "nothing is emitted there");
+}
 
 void add_idle_patches(const Needs& needs, const MethodWork& work, std::vector<LeftOut>& list) {
     const bool hemispheres = work.densities && needs.visibility;
@@ -25,6 +45,8 @@ void add_idle_patches(const Needs& needs, const MethodWork& work, std::vector<Le
 
 std::vector<LeftOut> left_out_of(const Needs& needs, const MethodWork& work) {
     std::vector<LeftOut> list;
+    if (work.linear_systems)
+        add_channels(needs, list);
     if (!needs.visibility && work.densities)
         list.push_back(
             {"densities", "in a convex enclosure all are 1", "all density rays and bytes"});
@@ -41,7 +63,8 @@ std::vector<LeftOut> left_out_of(const Needs& needs, const MethodWork& work) {
 } // namespace
 
 std::vector<LeftOut> left_out(const Needs& needs) {
-    return left_out_of(needs, {.densities = true, .pairs = true, .passes = true});
+    return left_out_of(needs,
+                       {.densities = true, .pairs = true, .linear_systems = true, .passes = true});
 }
 
 std::vector<LeftOut> left_out(const Needs& needs, const MethodWork& work,

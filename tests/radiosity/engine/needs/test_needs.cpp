@@ -6,6 +6,7 @@
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/needs/lit_facets.h"
 #include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/engine/solving/left_out.h"
 #include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -345,9 +346,9 @@ TEST_CASE("What is left out keeps every byte where that is promised, else the re
         std::vector<std::string> what;
     };
     const std::vector<Case> cases{
-        {grey_cube(), {}, Omission::convex, {"densities", "visibility"}},
+        {grey_cube(), {}, Omission::convex, {"colour", "densities", "visibility"}},
         {cube_with_cut_ceiling(3), {.max_edge = .4}, Omission::convex, {"densities", "visibility"}},
-        {test::sphere(0, 1, .5, 1), {.max_edge = .4}, Omission::convex, {"densities"}},
+        {test::sphere(0, 1, .5, 1), {.max_edge = .4}, Omission::convex, {"colour", "densities"}},
         {test::sphere(2, 1, .5, 1), {}, Omission::convex, {"densities"}},
         {test::room_with_block(), {.two_sided = true}, Omission::unlit, {"no light"}},
         {room_with_black_walls(), {}, Omission::black, {"reflect"}},
@@ -495,4 +496,22 @@ TEST_CASE("A full density store has the same leaves as one of the divided triang
             return x.vertex == y.vertex && x.surfaces == y.surfaces;
         }));
     }
+}
+
+TEST_CASE("A channel is solved unless another is the same in all materials in use, or it is dark") {
+    const auto channels = [](const Scene& scene) { return find_needs(Mesh(scene)).channel; };
+    using Channels = std::array<int, 3>;
+    constexpr int dark = Needs::dark;
+    Scene scene = grey_cube();
+    CHECK(channels(scene) == Channels{0, 0, 0});
+    scene.materials.push_back({"unused", {.1, .2, .3}, Vec3(0.0)});
+    CHECK(channels(scene) == Channels{0, 0, 0});
+    scene.materials[0].reflectance.g = .51;
+    CHECK(channels(scene) == Channels{0, 1, 0});
+    scene.materials[1].emission.b = 2;
+    CHECK(channels(scene) == Channels{0, 1, 2});
+    scene.materials[1].emission = {0, 1, 0};
+    CHECK(channels(scene) == Channels{dark, 1, dark});
+    add_point_emitter(scene, {.name = "bulb", .position = Vec3(.5), .intensity = {0, 0, 1}});
+    CHECK(channels(scene) == Channels{dark, 1, 2});
 }
