@@ -15,7 +15,7 @@ namespace hemilux {
 struct StageFigures {
     double seconds_read = 0, seconds_tree = 0;
     double seconds_solver = 0; ///< density rays included
-    DivisionWork division = {};
+    DivisionCost division = {};
     WholeError error;
     bool is_whole = false; ///< the error of the division was to be found out
 };

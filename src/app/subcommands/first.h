@@ -11,8 +11,10 @@ inline int bake(const SolveSettings& settings) {
     return settings.file_bake.occlusion ? bake_occlusion(settings) : solve(settings);
 }
 
+inline constexpr int (*solve_scene)(const SolveSettings&) = solve; // not the library's (run.h)
+
 inline constexpr AddSubcommand solve_subcommand =
-    subcommand<SolveSettings, add_solve_command, solve>;
+    subcommand<SolveSettings, add_solve_command, solve_scene>;
 inline constexpr AddSubcommand model_subcommand =
     subcommand<SolveSettings, add_solve_command, light_model>;
 inline constexpr AddSubcommand bake_subcommand = subcommand<SolveSettings, add_bake_command, bake>;

@@ -80,7 +80,7 @@ class AutoDivision {
     [[nodiscard]] bool is_confirmed(double sampling, std::span<const double> square);
     [[nodiscard]] bool is_over() const { return monitor_.interrupted || divided_.rough.steps == 0; }
     void forget_run();
-    [[nodiscard]] DivisionWork& work() { return divided_.work; }
+    [[nodiscard]] DivisionCost& work() { return divided_.work; }
 
     std::shared_ptr<Problem> problem_;
     Mesh& mesh_;

@@ -29,7 +29,7 @@ struct DivisionChoices {
 };
 
 /// What a division took.
-struct DivisionWork {
+struct DivisionCost {
     std::uint64_t rays = 0;       ///< of rough solutions that were dropped, and of points
     std::uint64_t rays_error = 0; ///< to find out what the division leaves
     double seconds = 0;           ///< without the steps of the run that goes on [s]
@@ -51,7 +51,7 @@ struct Divided {
     /// The error of the division, if that run does not go on after `steps`.
     std::optional<DivisionError> error = {};
     std::size_t steps = 0;
-    DivisionWork work = {};
+    DivisionCost work = {};
 };
 
 /// Divides the mesh of the problem until the whole error is as asked for, as estimated from a run
