@@ -1,5 +1,6 @@
 #include "module/own_strategy.h"
 
+#include "radiosity/paper/hemisphere/hemisphere.h"
 #include "radiosity/paper/pages/step.h"
 
 #include <stdexcept>
