@@ -12,7 +12,9 @@
 #include "radiosity/engine/factors/rows/view_factors.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/method_option.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/example_scenes.h"
 
@@ -73,8 +75,8 @@ struct Room {
 constexpr std::uint32_t steps = 2;
 const SolveOptions usual{.rays = 16, .threads = 1};
 
-using Make = std::unique_ptr<Solver> (*)(const SolverInput&);
-
+/// make(input) makes the method's solver, or its page.
+template <class Make>
 void solve(Room& room, const std::string& what, Make make, const SolveOptions& options) {
     Monitor monitor;
     const auto solver = make({room.mesh, *room.tracer, options, monitor, room.needs});

@@ -6,6 +6,7 @@
 #include "io/files/error.h"
 #include "io/results/checkpoint.h"
 #include "radiosity/engine/saving/state.h"
+#include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/paper/scene/mesh.h"
 

@@ -4,6 +4,7 @@
 #include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/scene/scene.h"
+#include "radiosity/paper/solving/solve_options.h"
 
 #include <utility>
 #include <vector>

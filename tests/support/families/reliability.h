@@ -3,6 +3,7 @@
 // one by one and together.
 
 #include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/paper/scene/needs.h"
 #include "radiosity/paper/solution/solution.h"

@@ -9,9 +9,9 @@
 namespace hemilux {
 namespace {
 
-class Refinement {
+class Refiner {
   public:
-    Refinement(const Mesh& mesh, std::span<const std::uint8_t> levels)
+    Refiner(const Mesh& mesh, std::span<const std::uint8_t> levels)
         : mesh_(mesh), before_(dynamic_cast<const CellTree*>(mesh.finer())), levels_(levels),
           cells_(std::make_shared<CellTree>(mesh.scene().facets.size())) {}
 
@@ -109,7 +109,7 @@ class Refinement {
 } // namespace
 
 std::vector<std::uint32_t> refine(Mesh& mesh, std::span<const std::uint8_t> levels) {
-    return Refinement(mesh, levels).run(mesh);
+    return Refiner(mesh, levels).run(mesh);
 }
 
 } // namespace hemilux

@@ -105,32 +105,42 @@ class Hemisphere1997 final : public StepSolver {
 
     /// Shoots through the triangles of a level over each part.
     void shoot(const Due& due, int level, Step& result) const {
+        const std::size_t triangles = std::size_t{4} << (2 * level), all = own_.parts * triangles;
+        std::uint32_t number = 0; // of the ray, among those of the patch
+        for (std::size_t part = 0; part < own_.parts; ++part)
+            for (std::size_t k = 0; k < triangles; ++k) {
+                const Rays N_tr = Rules::rays(due, input_.options.rays, part * triangles + k, all);
+                if (N_tr.number > 0)
+                    shoot(due, {part, k, level}, N_tr, number, result);
+            }
+    }
+
+    struct Place { ///< of a triangle
+        std::size_t part, index;
+        int level;
+    };
+    /// Shoots through one triangle. `number` is that of its first ray, then that after its last.
+    void shoot(const Due& due, const Place& at, Rays N_tr, std::uint32_t& number,
+               Step& result) const {
         const Patch& patch = input_.mesh.patches()[due.patch];
         const Frame frame = input_.mesh.hemisphere_frame(due.patch);
-        const std::size_t of_part = std::size_t{4} << (2 * level), all = own_.parts * of_part;
-        std::uint32_t number = 0;
-        for (std::size_t k = 0; k < all; ++k) {
-            Rays N_tr = Rules::rays(due, input_.options.rays, k, all);
-            if (N_tr.number == 0)
-                continue;
-            const std::size_t hemisphere = own_.parts * due.patch + k / of_part;
-            const CountedTriangle abc = stored_[hemisphere].triangle(level, k % of_part, tree_);
-            std::vector<Vec3> counted; // the directions of the rays that counted in this step
-            if (Rules::counts_by_the_way && level <= n())
-                counted = counted_directions(abc, level, k % of_part);
-            N_tr.number += counted.size();
-            N_tr.divisor += double(counted.size());
-            const SphericalTriangle tr(abc[0].direction, abc[1].direction, abc[2].direction);
-            const Polygon part = part_of(patch.shape, own_.parts, k / of_part);
-            const double A_tr = part.area() / patch.area * std::max(Rules::area(tr), 0.0);
-            const Vec3 Phi_ray = 1 / N_tr.divisor * A_tr * result.unshot[due.patch];
-            for (std::size_t i = 0; i < N_tr.number; ++i, ++number) {
-                Rng random(hash_words({due.key & 0xffffffff, due.key >> 32, number}));
-                const auto u = [&] { return random.uniform(); };
-                const Vec3 direction = i < counted.size() ? counted[i] : tr.sample_rejection(u);
-                result.shoot(patch, Rules::start(part, RayNumbers(due.key, number)),
-                             frame.to_world(direction), Phi_ray);
-            }
+        const Polygon part = part_of(patch.shape, own_.parts, at.part);
+        const CountedTriangle abc =
+            stored_[own_.parts * due.patch + at.part].triangle(at.level, at.index, tree_);
+        std::vector<Vec3> counted; // the directions of the rays that counted in this step
+        if (Rules::counts_by_the_way && at.level <= n())
+            counted = counted_directions(abc, at.level, at.index);
+        N_tr.number += counted.size();
+        N_tr.divisor += double(counted.size());
+        const SphericalTriangle tr(abc[0].direction, abc[1].direction, abc[2].direction);
+        const double A_tr = part.area() / patch.area * std::max(Rules::area(tr), 0.0);
+        const Vec3 Phi_ray = 1 / N_tr.divisor * A_tr * result.unshot[due.patch];
+        for (std::size_t i = 0; i < N_tr.number; ++i, ++number) {
+            Rng random(hash_words({due.key & 0xffffffff, due.key >> 32, number}));
+            const auto u = [&] { return random.uniform(); };
+            const Vec3 direction = i < counted.size() ? counted[i] : tr.sample_rejection(u);
+            result.shoot(patch, Rules::start(part, RayNumbers(due.key, number)),
+                         frame.to_world(direction), Phi_ray);
         }
     }
 

@@ -121,6 +121,7 @@ class NewHemisphereRadiosity final : public StepSolver {
         return true;
     }
 
+    /// Shoots what a patch has received, through all triangles of its hemisphere.
     void shoot(const Due& due, Step& result) const {
         const Patch& patch = input_.mesh.patches()[due.patch];
         const Frame frame = input_.mesh.hemisphere_frame(due.patch);
@@ -128,13 +129,14 @@ class NewHemisphereRadiosity final : public StepSolver {
         const double average = D_average(triangles);
         if (average == 0) // as printed, there are no rays where nothing was seen
             return;
-        double from = 0; // N_tr / N_hemi, summed over the triangles before
-        for (std::uint32_t number = 0; const auto& [tr, D_tr] : triangles) {
-            const double to = from + Rules::area(*tr) * D_tr / average; // A_tr / A_hemi
+        double from = 0;
+        for (std::uint32_t number = 0; const auto& [tr, D_tr] : triangles) { // for each triangle
+            // N_tr / N_hemi = A_tr / A_hemi D_tr / D_average is the length of its part of the line.
+            const double to = from + Rules::area(*tr) * D_tr / average;
             const Rays N_tr = Rules::rays(due, input_.options.rays, from, to);
             from = to;
-            const Vec3 Phi_ray = // Phi_tr / N_tr, Phi_tr = Phi_patch A_tr / A_hemi
-                1 / N_tr.divisor * Rules::area(*tr) * result.unshot[due.patch];
+            // Phi_ray = Phi_tr / N_tr, Phi_tr = Phi_patch A_tr / A_hemi
+            const Vec3 Phi_ray = 1 / N_tr.divisor * Rules::area(*tr) * result.unshot[due.patch];
             for (std::uint64_t ray = 0; ray < N_tr.number; ++ray) { // for each direction
                 RayNumbers random(due.key, number++);
                 const Vec3 direction = frame.to_world(tr->shape.sample_rejection(random)); // cosine
