@@ -19,8 +19,8 @@ struct FactorSurfaces {
 };
 
 /// Makes a row for each side of a face that has patches, in the order of the file, front first, or
-/// for each group or material in use. A face is named by its number in the file, from 0, with
-/// `back` after it where its back is meant.
+/// for each group or material in use, or for each patch. A face is named by its number in the file,
+/// from 0, with `back` after it where its back is meant, and a patch by its number in all tables.
 [[nodiscard]] FactorSurfaces factor_surfaces(const Mesh& mesh, FactorRows by);
 
 } // namespace hemilux

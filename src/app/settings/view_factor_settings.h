@@ -13,7 +13,7 @@
 namespace hemilux {
 
 /// The surfaces that rows of view factors stand for.
-enum class FactorRows { face, group, material };
+enum class FactorRows { face, group, material, patch };
 
 /// The factors whose error is meant by --error.
 struct FactorAim {
