@@ -74,6 +74,7 @@ const std::vector<std::string> rooms{
     "radiosity/answers/lightmaps",
     "radiosity/answers/gathering",
     "radiosity/answers/lamps",
+    "radiosity/answers/surfaces",
     "mpi",
     "io/files",
     "io/textures",

@@ -1,6 +1,5 @@
-#include "app/factors/factor_surfaces.h"
+#include "radiosity/answers/surfaces/surface_rows.h"
 
-#include "app/settings/exit_code.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
@@ -19,13 +18,10 @@ void share(std::string& text, const std::string& of_part, bool is_first) {
 
 } // namespace
 
-std::uint32_t FactorSurfaces::row_named(const std::string& name) const {
+std::optional<std::uint32_t> FactorSurfaces::row_named(const std::string& name) const {
     const auto found = std::ranges::find(rows, name, &FactorSurface::name);
-    if (found == rows.end())
-        throw UsageError("--of pair: no surface is called '" + name +
-                         "'; --by group or --by material has other names, and faces and "
-                         "patches are numbers from 0");
-    return static_cast<std::uint32_t>(found - rows.begin());
+    return found == rows.end() ? std::nullopt
+                               : std::optional(static_cast<std::uint32_t>(found - rows.begin()));
 }
 
 FactorSurfaces factor_surfaces(const Mesh& mesh, FactorRows by) {
