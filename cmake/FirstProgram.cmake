@@ -4,7 +4,7 @@
 
 # These files of src/ it does without. A file that it needs and that is named here is missed when it is linked.
 set(HEMILUX_NOT_FIRST
-  "radiosity/(research|light/cached_light/page|light/lamps/lamp_powers|answers/run/side_by_side)"
+  "radiosity/(answers/(surfaces|run/side_by_side)|research|light/cached_light/page|light/lamps/lamp_powers)"
   "radiosity/paper/(pages/(section_|step)|solving/mean_of_steps)"
   "radiosity/engine/(checks|factors/(points|rows)|heat|progressive)/"
   "radiosity/engine/densities/(cell_directions|subdivision_1997)"

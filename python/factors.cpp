@@ -1,14 +1,15 @@
 // view_factors: the factors of the program's `viewfactors`, as the arrays of a sparse matrix; and
 // the sunlit fractions of surfaces.
 
-#include "app/factors/factor_points.h"
-#include "app/factors/factor_run.h"
-#include "app/factors/sunlit_run.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/factor_aim.h"
+#include "io/results/view_factor_files.h"
 #include "python/parts.h"
 #include "python/scene.h"
 #include "python/waiting.h"
+#include "radiosity/answers/surfaces/surface_factors.h"
+#include "radiosity/answers/surfaces/surface_points.h"
+#include "radiosity/answers/surfaces/surface_sunlight.h"
 
 #include <pybind11/stl.h>
 
@@ -25,47 +26,48 @@ FactorRows rows_of_name(const std::string& by) {
         return FactorRows::group;
     if (by == "material")
         return FactorRows::material;
-    throw UsageError("by: expected 'face', 'group' or 'material', found '" + by + "'");
+    if (by == "patch")
+        return FactorRows::patch;
+    throw UsageError("by: expected 'face', 'group', 'material' or 'patch', found '" + by + "'");
 }
 
-/// Returns the settings that all functions have.
-ViewFactorSettings settings_of(double error, const std::string& by, std::uint64_t seed,
-                               unsigned threads) {
-    ViewFactorSettings settings;
+/// Returns what is asked of all functions.
+FactorsAsked asked_of(double error, const std::string& by, std::uint64_t seed, unsigned threads) {
+    FactorsAsked asked;
     if (!(error > 0 && error < 1))
         throw UsageError("error: expected a number above 0 and below 1");
-    settings.by = rows_of_name(by);
-    settings.error = error;
-    settings.options.seed = seed;
-    settings.options.threads = threads;
-    return settings;
+    asked.by = rows_of_name(by);
+    asked.error = error;
+    asked.seed = seed;
+    asked.threads = threads;
+    return asked;
 }
 
-ViewFactorSettings settings_of(double error, const std::string& of, const std::string& by,
-                               std::uint32_t rays, std::optional<double> seconds,
-                               const std::string& sky_bands, std::uint64_t seed, unsigned threads) {
+FactorsAsked asked_of(double error, const std::string& of, const std::string& by,
+                      std::uint32_t rays, std::optional<double> seconds,
+                      const std::string& sky_bands, std::uint64_t seed, unsigned threads) {
     constexpr std::uint32_t least_rays = 256, most_rays = 1 << 20;
-    ViewFactorSettings settings = settings_of(error, by, seed, threads);
+    FactorsAsked asked = asked_of(error, by, seed, threads);
     if (!std::has_single_bit(rays) || rays < least_rays || rays > most_rays)
         throw UsageError("rays: expected a power of two from 256 to 1048576");
     const std::optional<FactorAim> aim = parse_factor_aim(of);
     if (!aim)
         throw UsageError("of: expected 'above:F', 'rows', 'largest', 'pair:A,B' or 'sky', found '" +
                          of + "'");
-    settings.aim = *aim;
-    settings.ground = true; // its error is asked for, as that of the sky
-    settings.rays = rays;
+    asked.aim = *aim;
+    asked.ground = true; // its error is asked for, as that of the sky
+    asked.rays = rays;
     if (!sky_bands.empty()) {
-        settings.sky_bands = parse_sky_division(sky_bands);
-        if (!settings.sky_bands)
+        asked.sky_bands = parse_sky_division(sky_bands);
+        if (!asked.sky_bands)
             throw UsageError(
                 "sky_bands: expected a whole number from 1 to 90 or 'tregenza', found " +
                 sky_bands);
     }
     if (seconds && !(*seconds > 0))
         throw UsageError("time: expected a number of seconds above 0");
-    settings.seconds = seconds;
-    return settings;
+    asked.seconds = seconds;
+    return asked;
 }
 
 std::vector<FactorPlace> places_of(const Doubles& positions, const Doubles& normals) {
@@ -178,9 +180,8 @@ py::dict compute(const PythonMesh& mesh, double error, const std::string& of, co
                  std::uint32_t rays, std::optional<double> seconds, const std::string& sky_bands,
                  int up, std::uint64_t seed, unsigned threads, const Doubles& positions,
                  const Doubles& normals, const py::object& progress) {
-    const ViewFactorSettings settings =
-        settings_of(error, of, by, rays, seconds, sky_bands, seed, threads);
-    const std::optional<SkyBands> bands = bands_of(settings, up);
+    const FactorsAsked asked = asked_of(error, of, by, rays, seconds, sky_bands, seed, threads);
+    const std::optional<SkyBands> bands = bands_of(asked.sky_bands, up);
     Monitor monitor;
     FactorSurfaces surfaces;
     ViewFactors factors;
@@ -188,19 +189,20 @@ py::dict compute(const PythonMesh& mesh, double error, const std::string& of, co
     const std::vector<FactorPlace> places = places_of(positions, normals);
     std::vector<PointFactors> points;
     run_without_lock(monitor, progress, [&] {
-        surfaces = factor_surfaces(mesh.mesh(), settings.by);
+        surfaces = factor_surfaces(mesh.mesh(), asked.by);
+        check_aim(asked.aim, surfaces);
         const FactorScene scene{mesh.mesh(), mesh.tree(threads),       surfaces, up,
                                 {},          bands ? &*bands : nullptr};
-        factors = compute_factors(settings, scene, monitor);
+        factors = compute_factors(asked, scene, monitor);
         points =
-            compute_points(settings, scene, factor_points(places, scene.mesh, scene.tree), monitor);
+            compute_points(asked, scene, factor_points(places, scene.mesh, scene.tree), monitor);
         reciprocity = worst_reciprocity(factors);
     });
     py::list band_names;
     for (std::size_t k = 0; bands && k < bands->size(); ++k)
         band_names.append(bands->name(k));
     py::dict result = result_of(std::move(factors), surfaces, reciprocity);
-    result["least"] = settings.aim.least; // of above:F
+    result["least"] = asked.aim.least; // of above:F
     result["points"] = points_of(points);
     result["band_names"] = band_names;
     return result;
@@ -212,20 +214,20 @@ py::dict compute(const PythonMesh& mesh, double error, const std::string& of, co
 py::dict sunlit(const PythonMesh& mesh, const Doubles& directions, double error,
                 const std::string& by, std::uint64_t seed, unsigned threads,
                 const Doubles& positions, const Doubles& normals, const py::object& progress) {
-    const ViewFactorSettings settings = settings_of(error, by, seed, threads);
+    const FactorsAsked asked = asked_of(error, by, seed, threads);
     const std::vector<FactorPlace> places = places_of(positions, normals);
     const std::span<const Vec3> suns = rows_of(directions);
     Monitor monitor;
     FactorSurfaces surfaces;
     std::vector<double> fractions, errors;
     run_without_lock(monitor, progress, [&] {
-        surfaces = factor_surfaces(mesh.mesh(), settings.by);
+        surfaces = factor_surfaces(mesh.mesh(), asked.by);
         const FactorScene scene{mesh.mesh(), mesh.tree(threads), surfaces, 2};
         const std::vector<FactorPoint> points = factor_points(places, scene.mesh, scene.tree);
         std::vector<Vec3> to_suns;
         for (const Vec3& sun : suns)
             to_suns.push_back(-glm::normalize(sun));
-        find_sunlit(settings, scene, to_suns, points, monitor,
+        find_sunlit(asked, scene, to_suns, points, monitor,
                     [&](std::size_t, const std::vector<OpenShare>& shares) {
                         for (const OpenShare& share : shares) {
                             fractions.push_back(share.factor);
@@ -287,9 +289,8 @@ void save(const std::string& path, const Integers& begin, const Integers& column
           const std::string& sky_bands, bool sky, bool ground) {
     const ViewFactors factors =
         factors_of(begin, column, factor, standard_error, open, open_error, bands, bands_error);
-    ViewFactorSettings settings;
-    settings.sky_bands = parse_sky_division(sky_bands);
-    const std::optional<SkyBands> parts = bands_of(settings, 2); // these files show no directions
+    // These files show no directions.
+    const std::optional<SkyBands> parts = bands_of(parse_sky_division(sky_bands), 2);
     const std::vector<FactorSurface> surfaces(factors.rows());
     FactorTable table{factors, surfaces, {}};
     table.bands = parts ? &*parts : nullptr;

@@ -43,7 +43,7 @@ def sunlit(mesh: Mesh, suns: Any, error: float = 0.01, *, by: str = "face", poin
         Directions in which the light of each sun goes.
     error : float, optional
         Standard error of a fraction that is not exact [-].
-    by : {'face', 'group', 'material'}, optional
+    by : {'face', 'group', 'material', 'patch'}, optional
         What a surface is, as for `view_factors`.
     points : array_like of float, shape (p, 6), optional
         Points with normals x, y, z, nx, ny, nz.

@@ -51,8 +51,9 @@ def view_factors(mesh: Mesh, error: float = 0.01, *, of: str = "above:0.001", by
         factors of a row together, as a share of it. ``'largest'``: the largest factor of each row.
         ``'pair:A,B'``: the factor between two surfaces by their names. ``'sky'``: sky and ground of
         each surface alone, without factors between surfaces.
-    by : {'face', 'group', 'material'}, optional
-        What a surface is: the front or the back of a face, or all faces of a group or material.
+    by : {'face', 'group', 'material', 'patch'}, optional
+        What a surface is: the front or the back of a face, all faces of a group or material,
+        or a patch.
     sky, ground : bool, optional
         Whether they are columns of the matrix too.
     sky_bands : int or 'tregenza', optional

@@ -217,7 +217,7 @@ def test_turned_faces_are_named():
     (dict(error=float("nan")), "error: expected a number above 0"),
     (dict(of="most"), "of: expected 'above:F'"),
     (dict(of="pair:floor,door"), "no surface is called 'floor'"),
-    (dict(by="colour"), "by: expected 'face', 'group' or 'material'"),
+    (dict(by="colour"), "by: expected 'face', 'group', 'material' or 'patch'"),
     (dict(rays=1000), "rays: expected a power of two"),
     (dict(rays=1024.0), "rays: expected a whole number"),
     (dict(threads=-1), "threads: expected a whole number from 0"),

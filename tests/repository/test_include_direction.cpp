@@ -76,6 +76,7 @@ const std::vector<std::string> rooms{
     "radiosity/answers/lightmaps",
     "radiosity/answers/gathering",
     "radiosity/answers/lamps",
+    "radiosity/answers/surfaces",
     "mpi",
     "io/files",
     "io/textures",

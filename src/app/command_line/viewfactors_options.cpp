@@ -61,9 +61,10 @@ void add_factor_options(Command command, ViewFactorSettings& settings) {
     add_choice(method, "--by", settings.by,
                {{FactorRows::face, "face"},
                 {FactorRows::group, "group"},
-                {FactorRows::material, "material"}},
-               "what a row stands for: each side of a face of the file, a group or a material "
-               "[face]");
+                {FactorRows::material, "material"},
+                {FactorRows::patch, "patch"}},
+               "what a row stands for: each side of a face of the file, a group, a material or a "
+               "patch, as `solve` has them [face]");
     add_error(method, "--error", settings.error,
               "the standard error that is aimed at, relative [1%]");
     add_seconds(method, "--time", settings.seconds, positive,

@@ -3,9 +3,6 @@
 #include "app/commands/commands.h"
 #include "app/factors/factor_audit.h"
 #include "app/factors/factor_checkpoint.h"
-#include "app/factors/factor_points.h"
-#include "app/factors/factor_run.h"
-#include "app/factors/factor_surfaces.h"
 #include "app/factors/heat_table.h"
 #include "app/factors/sunlit_run.h"
 #include "app/gathering/point_table.h"
@@ -25,6 +22,8 @@
 #include "io/results/view_factor_legend.h"
 #include "parallel/stopwatch.h"
 #include "radiosity/answers/asked/text.h"
+#include "radiosity/answers/surfaces/surface_factors.h"
+#include "radiosity/answers/surfaces/surface_points.h"
 
 #include <algorithm>
 #include <optional>
@@ -47,7 +46,7 @@ MemoryNeed need_of(const Scene& scene, const ViewFactorSettings& settings) {
     const double patches = patches_of(scene, settings.scene.mesh);
     MemoryNeed need = memory_need(scene, settings.scene.mesh, settings.options, {});
     need.method = Workers(settings.options.threads).threads() * of_thread;
-    const std::optional<SkyBands> bands = bands_of(settings, 0);
+    const std::optional<SkyBands> bands = bands_of(settings.sky_bands, 0);
     need.results =
         (per_patch + (bands ? per_band * static_cast<double>(bands->size()) : 0)) * patches;
     return need;
@@ -93,6 +92,15 @@ void check_dense(const ViewFactorSettings& settings, std::size_t rows, std::size
                              " surfaces would take " +
                              byte_size(static_cast<std::uint64_t>(bytes)) +
                              "; write .npz instead, which scipy.sparse.load_npz reads");
+}
+
+/// Returns the points as rows: `point 0` and so on, as the file has them.
+std::vector<FactorPlace> places_of(std::span<const NamedPoint> points) {
+    std::vector<FactorPlace> places;
+    for (const NamedPoint& point : points)
+        places.push_back(
+            {"point " + std::to_string(places.size()), point.position, point.given_normal});
+    return places;
 }
 
 /// Throws UsageError where --of sky is to write factors that it does not compute.
@@ -159,13 +167,13 @@ FoundFactors compute(const ViewFactorSettings& settings, const FactorScene& scen
     results.points = factor_points(results.places, scene.mesh, scene.tree);
     if (!wants_factors(settings))
         return results;
-    results.factors = compute_factors(settings, scene, monitor);
+    results.factors = compute_factors(settings.asked(), scene, monitor);
     results.has_factors = results.factors.rows() > 0;
     if (!results.has_factors)
         return results;
     log_audit(settings, scene.surfaces, results.factors, watch.seconds());
     const Stopwatch at_points;
-    results.point_rows = compute_points(settings, scene, results.points, monitor);
+    results.point_rows = compute_points(settings.asked(), scene, results.points, monitor);
     log_points(settings, results.point_rows, at_points.seconds());
     return results;
 }
@@ -288,10 +296,11 @@ int viewfactors(const ViewFactorSettings& settings) {
     const LoadedSurfaces loaded = load_surfaces(settings, files);
     warn_of_low_suns(settings, suns, loaded.up);
     const FactorSurfaces surfaces = factor_surfaces(loaded.mesh, settings.by);
-    const std::optional<SkyBands> bands = bands_of(settings, loaded.up);
+    const std::optional<SkyBands> bands = bands_of(settings.sky_bands, loaded.up);
     check_distances(settings.points, points, loaded.mesh);
     check_dense(settings, surfaces.rows.size(), points.size(), bands);
     check_sky(settings);
+    check_aim(settings.aim, surfaces);
     const WideBvh tree(loaded.mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted.own().wished);
     FactorScene scene{

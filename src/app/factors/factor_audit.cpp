@@ -3,6 +3,7 @@
 #include "app/terminal/log.h"
 #include "app/terminal/summary.h"
 #include "radiosity/answers/asked/text.h"
+#include "radiosity/answers/surfaces/surface_factors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,8 +57,8 @@ void log_error(const ViewFactorSettings& settings, const FactorSurfaces& surface
         break;
     }
     case FactorAim::Of::pair: {
-        const OpenShare factor = factors.between(surfaces.row_named(settings.aim.from),
-                                                 surfaces.row_named(settings.aim.to));
+        const OpenShare factor = factors.between(surfaces.row_named(settings.aim.from).value(),
+                                                 surfaces.row_named(settings.aim.to).value());
         reached = factor.factor > 0 ? factor.standard_error / factor.factor : 0;
         text = "F from '" + settings.aim.from + "' to '" + settings.aim.to + "' " +
                formatted("%.8g +- %.2g", factor.factor, factor.standard_error);
@@ -97,23 +98,6 @@ void log_turned(const ViewFactorSettings& settings, const FactorSurfaces& surfac
 }
 
 } // namespace
-
-LargestFactors largest_factors(const ViewFactors& factors) {
-    LargestFactors result;
-    for (std::size_t i = 0; i < factors.rows(); ++i) {
-        double largest = 0, error = 0;
-        for (std::size_t k = factors.row_begin[i]; k < factors.row_begin[i + 1]; ++k)
-            if (factors.factor[k] > largest) {
-                largest = factors.factor[k];
-                error = factors.standard_error[k];
-            }
-        if (!(largest > 0))
-            continue;
-        result.smallest = std::min(result.smallest, largest);
-        result.worst_error = std::max(result.worst_error, error / largest);
-    }
-    return result;
-}
 
 void log_audit(const ViewFactorSettings& settings, const FactorSurfaces& surfaces,
                const ViewFactors& factors, double seconds) {

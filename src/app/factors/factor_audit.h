@@ -2,22 +2,15 @@
 // What is said of view factors that were computed: their errors, how far rows were from closed, and
 // surfaces that are probably turned.
 
-#include "app/factors/factor_surfaces.h"
 #include "app/factors/sunlit_run.h"
 #include "app/settings/view_factor_settings.h"
+#include "radiosity/answers/surfaces/surface_rows.h"
 #include "radiosity/engine/factors/points/point_factors.h"
 #include "radiosity/engine/factors/rows/view_factors.h"
 
 #include <span>
 
 namespace hemilux {
-
-/// The largest factor of each row: the smallest of all, and the worst relative error.
-struct LargestFactors {
-    double smallest = 1, worst_error = 0;
-};
-
-[[nodiscard]] LargestFactors largest_factors(const ViewFactors& factors);
 
 /// Logs all of this, and warns where an error is larger than asked for.
 void log_audit(const ViewFactorSettings& settings, const FactorSurfaces& surfaces,

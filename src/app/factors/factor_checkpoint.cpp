@@ -26,7 +26,7 @@ CheckpointOptions options_of(const ViewFactorSettings& settings) {
                                  {"--error", shortest_text(settings.error)},
                                  {"--of", text_of(settings.aim)}};
     if (settings.aim.of == FactorAim::Of::pair) {
-        constexpr std::array names = {"face", "group", "material"};
+        constexpr std::array names = {"face", "group", "material", "patch"};
         options.emplace_back("--by", names[static_cast<std::size_t>(settings.by)]);
     }
     return options;

@@ -2,11 +2,11 @@
 // --checkpoint and --resume of `viewfactors`: the rows that are measured, so that a run that ended
 // is gone on with.
 
-#include "app/factors/factor_run.h"
 #include "app/running/write_report.h"
 #include "app/settings/view_factor_settings.h"
 #include "io/results/checkpoint.h"
 #include "parallel/stopwatch.h"
+#include "radiosity/answers/surfaces/surface_factors.h"
 
 #include <cstdint>
 #include <optional>

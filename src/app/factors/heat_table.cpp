@@ -9,6 +9,7 @@
 #include "io/files/text_reader.h"
 #include "io/files/text_words.h"
 #include "io/results/csv.h"
+#include "io/results/view_factor_files.h"
 #include "radiosity/answers/asked/text.h"
 #include "radiosity/engine/factors/rows/row_rays.h"
 #include "radiosity/paper/scene/mesh.h"

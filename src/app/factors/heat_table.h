@@ -1,8 +1,8 @@
 #pragma once
 // What `exchange` reads and writes: what is known of the surfaces, and the heat that they exchange.
 
-#include "app/factors/factor_run.h"
-#include "app/factors/factor_surfaces.h"
+#include "app/settings/view_factor_settings.h"
+#include "radiosity/answers/surfaces/surface_factors.h"
 #include "radiosity/engine/heat/heat_exchange.h"
 
 #include <span>

@@ -1,22 +1,15 @@
 #pragma once
-// The sunlit fractions of `viewfactors --sunlit`: of surfaces, and of points.
+// The table of `viewfactors --sunlit`: sunlit fractions of surfaces, and of points.
 
-#include "app/factors/factor_run.h"
+#include "app/settings/view_factor_settings.h"
+#include "radiosity/answers/surfaces/surface_sunlight.h"
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace hemilux {
-
-/// Finds the sunlit fractions of all surfaces, and then of points, for each sun by error, seed and
-/// threads of the settings, and calls keep(sun, shares) with them. `suns` are unit vectors to them.
-/// An interrupt ends it after the suns that are complete.
-void find_sunlit(const ViewFactorSettings& settings, const FactorScene& scene,
-                 std::span<const Vec3> suns, std::span<const FactorPoint> points, Monitor& monitor,
-                 const std::function<void(std::size_t sun, std::vector<OpenShare> shares)>& keep);
 
 /// How far it came.
 struct SunlitRun {

@@ -1,5 +1,6 @@
 #include "app/settings/factor_aim.h"
 
+#include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
 #include "app/settings/numbers.h"
 
@@ -21,6 +22,16 @@ std::string text_of(const FactorAim& aim) {
         break;
     }
     return "above:" + shortest_text(aim.least);
+}
+
+void check_aim(const FactorAim& aim, const FactorSurfaces& surfaces) {
+    if (aim.of != FactorAim::Of::pair)
+        return;
+    for (const std::string& name : {aim.from, aim.to})
+        if (!surfaces.row_named(name))
+            throw UsageError("--of pair: no surface is called '" + name +
+                             "'; --by group or --by material has other names, and faces and "
+                             "patches are numbers from 0");
 }
 
 std::optional<FactorAim> parse_factor_aim(std::string_view text) {

@@ -3,6 +3,7 @@
 // divided, and kinds of files.
 
 #include "app/settings/view_factor_settings.h"
+#include "radiosity/answers/surfaces/surface_rows.h"
 
 #include <optional>
 #include <string>
@@ -15,6 +16,9 @@ namespace hemilux {
 
 /// Returns what parse_factor_aim() reads.
 [[nodiscard]] std::string text_of(const FactorAim& aim);
+
+/// Throws UsageError where the aim is a pair of which one is no surface.
+void check_aim(const FactorAim& aim, const FactorSurfaces& surfaces);
 
 /// Reads a number of bands from 1 to 90, or "tregenza"; empty for any other text.
 [[nodiscard]] std::optional<SkyDivision> parse_sky_division(std::string_view text);

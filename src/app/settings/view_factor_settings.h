@@ -4,6 +4,7 @@
 #include "app/settings/settings.h"
 #include "geometry/vector.h"
 #include "io/files/provenance.h"
+#include "radiosity/answers/surfaces/factors_asked.h"
 
 #include <cstdint>
 #include <optional>
@@ -12,39 +13,18 @@
 
 namespace hemilux {
 
-/// The surfaces that rows of view factors stand for.
-enum class FactorRows { face, group, material };
-
-/// The factors whose error is meant by --error.
-struct FactorAim {
-    enum class Of { above, rows, largest, pair, sky };
-    Of of = Of::above;
-    double least = 1e-3;  ///< of `above`: the smallest factor that counts [-]
-    std::string from, to; ///< of `pair`: names of surfaces
-};
-
-/// How the sky is divided into columns.
-struct SkyDivision {
-    unsigned steps = 0; ///< of altitude; 0: the patches of Tregenza
-};
-
 /// What `exchange` computes of view factors.
 struct HeatSettings {
     std::string surfaces, output; ///< paths; empty: no heat is computed
     std::optional<double> sky_temperature, ground_temperature; ///< [K]
 };
 
-struct ViewFactorSettings {
+/// What is asked of factors, and where it goes; seed and threads are those of the options.
+struct ViewFactorSettings : FactorsAsked {
     SceneSettings scene;
     SolveOptions options; ///< seed, threads
-    FactorRows by = FactorRows::face;
-    double error = .01;               ///< relative, or of a row's sum with FactorAim::Of::rows [-]
-    FactorAim aim;                    ///< what it is of
-    std::uint32_t rays = 1024;        ///< from each patch, to find who sees whom; a power of two
-    bool sky = false, ground = false; ///< they are columns
-    std::optional<double> seconds;    ///< after which factors are as exact as they are then
+    bool sky = false;     ///< it is a column, as the ground is with `ground`
     CheckpointSettings checkpoint;
-    std::optional<SkyDivision> sky_bands;
     std::optional<int> up;   ///< axis; empty: 1 for glTF, else 2
     std::string points;      ///< file of further rows; empty: none
     std::optional<Vec3> sun; ///< unit vector in which its light goes
@@ -56,6 +36,14 @@ struct ViewFactorSettings {
     Provenance from;    ///< provenance of the files
     std::vector<GivenOption> given;
     Verbosity verbosity = Verbosity::normal;
+
+    /// Returns what is asked of factors, with seed and threads.
+    [[nodiscard]] FactorsAsked asked() const {
+        FactorsAsked asked = *this;
+        asked.seed = options.seed;
+        asked.threads = options.threads;
+        return asked;
+    }
 
     static constexpr double max_dense_bytes = 1e9;
 };

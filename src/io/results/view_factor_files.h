@@ -3,6 +3,7 @@
 // Their legend is in view_factor_legend.h.
 
 #include "io/files/provenance.h"
+#include "radiosity/answers/surfaces/surface_rows.h"
 #include "radiosity/engine/factors/points/point_factors.h"
 #include "radiosity/engine/factors/rows/sky_bands.h"
 #include "radiosity/engine/factors/rows/view_factors.h"
@@ -13,21 +14,6 @@
 #include <vector>
 
 namespace hemilux {
-
-/// A row as the user knows it.
-struct FactorSurface {
-    std::string name;
-    std::string face, side, material, group; ///< those that all its patches share, or empty
-    double area = 0;                         ///< [m2]
-    Vec3 centre{0.0};                        ///< centre of mass [m]
-    Vec3 normal{0.0};                        ///< mean, unit; 0 where the sides cancel
-};
-
-/// A point that has a row, as the user knows it.
-struct FactorPlace {
-    std::string name;
-    Vec3 position, normal; ///< as in the file [m], [-]
-};
 
 /// All that the files are made of.
 struct FactorTable {

@@ -552,3 +552,20 @@ TEST_CASE("exchange writes temperatures and heat of surfaces") {
     refuses(header + "*,.5,300,\nroof,.5,300,\n", "bad.csv:3: no surface is called 'roof'");
     CHECK_FALSE(place.has("a.csv"));
 }
+
+TEST_CASE("by patch the rows of viewfactors are those of formfactors") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(place.hemilux("viewfactors room.obj -q --by patch -o v.csv --legend l.csv").code == 0);
+    REQUIRE(place.hemilux("formfactors room.obj -q --exact -o f.csv").code == 0);
+    const auto names = rows_of(place.read("l.csv"));
+    REQUIRE(names.size() == 25);
+    for (std::size_t k = 1; k < names.size(); ++k)
+        CHECK(names[k][1] == std::to_string(k - 1));
+    const auto factors = factors_of(place.read("v.csv"));
+    const auto rows = rows_of(place.read("f.csv"));
+    CHECK(factors.size() == rows.size() - 1);
+    for (std::size_t k = 1; k < rows.size(); ++k)
+        CHECK(factors.at({std::stoi(rows[k][0]), std::stoi(rows[k][1])}) ==
+              Approx(std::stod(rows[k][2])).epsilon(1e-3));
+}

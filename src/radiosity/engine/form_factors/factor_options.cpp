@@ -4,6 +4,7 @@
 #include "radiosity/engine/solving/method_option.h"
 #include "radiosity/engine/solving/own_options.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <stdexcept>

@@ -1,6 +1,5 @@
-#include "app/factors/factor_run.h"
+#include "radiosity/answers/surfaces/surface_factors.h"
 
-#include "app/factors/factor_audit.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/factors/rows/open_views.h"
 #include "radiosity/engine/solving/time_limit.h"
@@ -9,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace hemilux {
@@ -20,13 +21,13 @@ constexpr double slack_of_rms = 1.5;
 
 /// Returns the tolerances that the aim asks for. `largest` is the smallest of the largest factors
 /// of all rows, as far as it is known.
-FactorTolerance tolerance_of(const ViewFactorSettings& settings, const FactorSurfaces& surfaces,
+FactorTolerance tolerance_of(const FactorsAsked& asked, const FactorSurfaces& surfaces,
                              double largest) {
     constexpr double least_of_row = 1e-3;
-    const double error = settings.error;
-    switch (settings.aim.of) {
+    const double error = asked.error;
+    switch (asked.aim.of) {
     case FactorAim::Of::above:
-        return relative_above(slack_of_rms * error, settings.aim.least);
+        return relative_above(slack_of_rms * error, asked.aim.least);
     case FactorAim::Of::largest:
         return relative_above(error, largest);
     case FactorAim::Of::rows:
@@ -38,8 +39,13 @@ FactorTolerance tolerance_of(const ViewFactorSettings& settings, const FactorSur
     case FactorAim::Of::sky: // which needs no pairs
         break;
     }
-    const std::uint32_t a = surfaces.row_named(settings.aim.from),
-                        b = surfaces.row_named(settings.aim.to);
+    const auto row_named = [&surfaces](const std::string& name) {
+        const std::optional<std::uint32_t> row = surfaces.row_named(name);
+        if (!row)
+            throw std::invalid_argument("no surface is called '" + name + "'");
+        return *row;
+    };
+    const std::uint32_t a = row_named(asked.aim.from), b = row_named(asked.aim.to);
     constexpr double least_of_pair = 1e-4, least_of_others = .1;
     const auto tolerance = [=, &surfaces](std::uint32_t i, std::uint32_t j, double factor) {
         const std::uint32_t row = surfaces.row_of[i], column = surfaces.row_of[j];
@@ -51,42 +57,58 @@ FactorTolerance tolerance_of(const ViewFactorSettings& settings, const FactorSur
 
 /// With a limit of time, a coarse pass comes first: it takes a fraction of the time of the last,
 /// and what the limit leaves of the last is as exact as it.
-std::vector<double> passes_before(const ViewFactorSettings& settings) {
-    return settings.seconds ? std::vector<double>{4} : std::vector<double>{};
+std::vector<double> passes_before(const FactorsAsked& asked) {
+    return asked.seconds ? std::vector<double>{4} : std::vector<double>{};
 }
 
 } // namespace
 
-std::optional<SkyBands> bands_of(const ViewFactorSettings& settings, int up) {
-    if (!settings.sky_bands)
+std::optional<SkyBands> bands_of(const std::optional<SkyDivision>& division, int up) {
+    if (!division)
         return {};
-    return settings.sky_bands->steps > 0 ? SkyBands::of_equal_steps(settings.sky_bands->steps, up)
-                                         : SkyBands::tregenza(up);
+    return division->steps > 0 ? SkyBands::of_equal_steps(division->steps, up)
+                               : SkyBands::tregenza(up);
 }
 
-ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScene& scene,
-                            Monitor& monitor) {
-    const Workers workers(settings.options.threads);
-    const TimeLimit limit(monitor.interrupted, settings.seconds);
+LargestFactors largest_factors(const ViewFactors& factors) {
+    LargestFactors result;
+    for (std::size_t i = 0; i < factors.rows(); ++i) {
+        double largest = 0, error = 0;
+        for (std::size_t k = factors.row_begin[i]; k < factors.row_begin[i + 1]; ++k)
+            if (factors.factor[k] > largest) {
+                largest = factors.factor[k];
+                error = factors.standard_error[k];
+            }
+        if (!(largest > 0))
+            continue;
+        result.smallest = std::min(result.smallest, largest);
+        result.worst_error = std::max(result.worst_error, error / largest);
+    }
+    return result;
+}
+
+ViewFactors compute_factors(const FactorsAsked& asked, const FactorScene& scene, Monitor& monitor) {
+    const Workers workers(asked.threads);
+    const TimeLimit limit(monitor.interrupted, asked.seconds);
     constexpr double first_guess = .01, smallest = 1e-4;
     const auto with_largest = [&](double largest) {
-        const ExchangeOptions options{.rays = settings.rays,
-                                      .tolerance = tolerance_of(settings, scene.surfaces, largest),
-                                      .seed = settings.options.seed,
+        const ExchangeOptions options{.rays = asked.rays,
+                                      .tolerance = tolerance_of(asked, scene.surfaces, largest),
+                                      .seed = asked.seed,
                                       .up = scene.up,
                                       .bands = scene.bands,
-                                      .before = passes_before(settings),
+                                      .before = passes_before(asked),
                                       .ask = scene.ask,
                                       .load = scene.load,
                                       .keep = scene.keep};
         return view_factors(scene.mesh, scene.tree, scene.surfaces.row_of,
                             scene.surfaces.rows.size(), options, workers, monitor);
     };
-    if (settings.aim.of == FactorAim::Of::sky) {
+    if (asked.aim.of == FactorAim::Of::sky) {
         const OpenViews views = find_open_views(scene.mesh, scene.tree,
-                                                {.error = settings.error,
-                                                 .ground = settings.ground,
-                                                 .seed = settings.options.seed,
+                                                {.error = asked.error,
+                                                 .ground = asked.ground,
+                                                 .seed = asked.seed,
                                                  .up = scene.up,
                                                  .bands = scene.bands},
                                                 workers, monitor);
@@ -106,12 +128,12 @@ ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScen
         return factors;
     }
     ViewFactors factors = with_largest(first_guess);
-    if (settings.aim.of != FactorAim::Of::largest || monitor.interrupted)
+    if (asked.aim.of != FactorAim::Of::largest || monitor.interrupted)
         return factors;
     const LargestFactors found = largest_factors(factors);
-    if (found.worst_error <= settings.error || found.smallest >= first_guess)
+    if (found.worst_error <= asked.error || found.smallest >= first_guess)
         return factors;
-    if (!settings.seconds)
+    if (!asked.seconds)
         factors = {}; // before there are others
     ViewFactors better = with_largest(std::max(found.smallest, smallest));
     if (better.work.rows_left > 0 && factors.rows() > 0)
@@ -119,18 +141,17 @@ ViewFactors compute_factors(const ViewFactorSettings& settings, const FactorScen
     return better;
 }
 
-std::vector<PointFactors> compute_points(const ViewFactorSettings& settings,
-                                         const FactorScene& scene,
+std::vector<PointFactors> compute_points(const FactorsAsked& asked, const FactorScene& scene,
                                          std::span<const FactorPoint> points, Monitor& monitor) {
-    const PointFactorOptions options{.error = settings.error,
-                                     .least = settings.aim.least,
-                                     .rays = settings.rays,
-                                     .seed = settings.options.seed,
+    const PointFactorOptions options{.error = asked.error,
+                                     .least = asked.aim.least,
+                                     .rays = asked.rays,
+                                     .seed = asked.seed,
                                      .up = scene.up,
                                      .bands = scene.bands,
                                      .ask = scene.ask};
     return point_factors(points, scene.mesh, scene.tree, scene.surfaces.row_of, options,
-                         Workers(settings.options.threads), monitor);
+                         Workers(asked.threads), monitor);
 }
 
 } // namespace hemilux

@@ -1,18 +1,10 @@
-#include "app/factors/factor_points.h"
+#include "radiosity/answers/surfaces/surface_points.h"
 
 #include "geometry/numeric.h"
 #include "radiosity/light/final_gather/light_at_points.h"
 #include "radiosity/paper/scene/mesh.h"
 
 namespace hemilux {
-
-std::vector<FactorPlace> places_of(std::span<const NamedPoint> points) {
-    std::vector<FactorPlace> places;
-    for (const NamedPoint& point : points)
-        places.push_back(
-            {"point " + std::to_string(places.size()), point.position, point.given_normal});
-    return places;
-}
 
 std::vector<FactorPoint> factor_points(std::span<const FactorPlace> places, const Mesh& mesh,
                                        const Tracer& tracer) {

@@ -1,6 +1,5 @@
-#include "app/factors/factor_surfaces.h"
+#include "radiosity/answers/surfaces/surface_rows.h"
 
-#include "app/settings/exit_code.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
@@ -19,18 +18,17 @@ void share(std::string& text, const std::string& of_part, bool is_first) {
 
 } // namespace
 
-std::uint32_t FactorSurfaces::row_named(const std::string& name) const {
+std::optional<std::uint32_t> FactorSurfaces::row_named(const std::string& name) const {
     const auto found = std::ranges::find(rows, name, &FactorSurface::name);
-    if (found == rows.end())
-        throw UsageError("--of pair: no surface is called '" + name +
-                         "'; --by group or --by material has other names, and faces are numbers "
-                         "from 0");
-    return static_cast<std::uint32_t>(found - rows.begin());
+    return found == rows.end() ? std::nullopt
+                               : std::optional(static_cast<std::uint32_t>(found - rows.begin()));
 }
 
 FactorSurfaces factor_surfaces(const Mesh& mesh, FactorRows by) {
     const Scene& scene = mesh.scene();
     const auto key_of = [&](const Patch& patch) -> std::uint64_t {
+        if (by == FactorRows::patch)
+            return static_cast<std::uint64_t>(&patch - mesh.patches().data());
         const Facet& facet = scene.facets[patch.facet];
         if (by == FactorRows::face)
             return std::uint64_t{2} * facet.face + (patch.back ? 1 : 0);
@@ -45,6 +43,8 @@ FactorSurfaces factor_surfaces(const Mesh& mesh, FactorRows by) {
         FactorSurface& surface = surfaces.rows.emplace_back();
         if (by == FactorRows::face)
             surface.name = std::to_string(key / 2) + (key % 2 != 0 ? " back" : "");
+        else if (by == FactorRows::patch)
+            surface.name = std::to_string(key);
         else
             surface.name = by == FactorRows::group ? scene.groups[key] : scene.materials[key].name;
     }
