@@ -32,6 +32,7 @@ set(HEMILUX_TOGETHER
   "radiosity/light/"
   "radiosity/research/"
   "radiosity/answers/(pictures|images|views)/"
+  "radiosity/answers/(gathering|lamps|run|division|surfaces)/"
   "radiosity/answers/"
   "io/(files|pictures|polygons|textures)/"
   "io/scene_files/"

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t max_rows = 4, many_patches = 512;
 
 /// The shares of the error that what gathers read, and the noise of their rays, may leave.
-constexpr double share_of_learned = .7, share_of_rays = .5;
+constexpr double share_of_learned = .7, share_of_own_rays = .5;
 
 /// The part of a target that one of its patches is.
 TargetPart part_of(const Mesh& mesh, std::uint32_t i, double weight, std::size_t rows,
@@ -86,7 +86,7 @@ std::optional<Answer<Solution>> gather_patches(const LitScene& scene, const Solu
         return std::nullopt;
     const LightAtPoints found =
         light_at(sensors, mesh, scene.tracer, cache.light(),
-                 {.noise = share_of_rays * asked.error * std::sqrt(double(points_of_patch)),
+                 {.noise = share_of_own_rays * asked.error * std::sqrt(double(points_of_patch)),
                   .seed = hash_words({asked.seed, 9}),
                   .give_up = [&] { return bool(monitor.interrupted); }},
                  workers);

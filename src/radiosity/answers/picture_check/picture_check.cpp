@@ -66,7 +66,7 @@ std::string number(double value, const char* format) {
     return text;
 }
 
-std::string percent(double share) { return number(100 * share, "%.0f %%"); }
+std::string whole_percent(double share) { return number(100 * share, "%.0f %%"); }
 
 /// Returns the factor from the exposure of the picture to the automatic one.
 double from_automatic(const ShownPicture& shown) {
@@ -97,7 +97,7 @@ std::string why_black(const ShownPicture& shown, const LitPatches& lit, const Se
     if (lit.brightest.empty())
         return "no surface reflects light";
     if (seen.lit > hardly)
-        return "what is lit fills " + percent(seen.lit) + " of it" + other_camera(shown);
+        return "what is lit fills " + whole_percent(seen.lit) + " of it" + other_camera(shown);
     return text_of(place_of_light(shown.mesh, shown.tracer, shown.radiosity), shown.mesh) +
            ", and the camera sees none of it" + other_camera(shown);
 }
@@ -105,12 +105,12 @@ std::string why_black(const ShownPicture& shown, const LitPatches& lit, const Se
 std::string why_white(const ShownPicture& shown, const Seen& seen) {
     constexpr double most = 0.5, far_off = 1.0 / 8;
     if (seen.far > most)
-        return "the sky fills " + percent(seen.far) + " of it";
+        return "the sky fills " + whole_percent(seen.far) + " of it";
     if (seen.emitters > most) {
         const auto largest = std::ranges::max_element(
             seen.emitters_by_group, {}, [](const auto& group) { return group.second; });
-        return "lamps fill " + percent(seen.emitters) + " of it, most of them '" + largest->first +
-               "'" + other_camera(shown);
+        return "lamps fill " + whole_percent(seen.emitters) + " of it, most of them '" +
+               largest->first + "'" + other_camera(shown);
     }
     if (const double factor = from_automatic(shown); factor < far_off)
         return exposure_text(shown, factor);
