@@ -37,6 +37,7 @@ PYBIND11_MODULE(_hemilux, module) {
     add_mesh(module);
     add_view_factors(module);
     add_solve(module);
+    add_lighting(module);
     add_compare(module);
     add_rays(module);
     add_density(module);

@@ -7,6 +7,7 @@
 #include "radiosity/answers/run/run.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,12 @@ struct RunResult {
     Run run;
     std::vector<double> true_errors; ///< by step; empty without a reference
     Findings findings;               ///< what there is to say of it
+};
+
+/// A run that light may be asked for; its solver refers to the monitor.
+struct PythonRun {
+    Monitor monitor;
+    std::optional<RunResult> result;
 };
 
 /// Runs a method until a rule or the monitor ends it. Where the monitor is interrupted the result

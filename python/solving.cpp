@@ -72,11 +72,13 @@ py::dict solve_mesh(const PythonMesh& mesh, const std::string& method, const Run
                     const std::optional<Doubles>& reference, const py::object& progress) {
     const SolveSettings settings = settings_of(method_named(method), numbers);
     const std::span<const Vec3> known = reference ? rows_of(*reference) : std::span<const Vec3>{};
-    Monitor monitor;
-    std::optional<RunResult> run;
-    run_without_lock(monitor, progress,
-                     [&] { run.emplace(run_method(mesh, settings, known, monitor)); });
-    return result_of(mesh, settings, *run);
+    auto kept = std::make_unique<PythonRun>();
+    run_without_lock(kept->monitor, progress, [&] {
+        kept->result.emplace(run_method(mesh, settings, known, kept->monitor));
+    });
+    py::dict result = result_of(mesh, settings, *kept->result);
+    result["_run"] = py::cast(std::move(kept));
+    return result;
 }
 
 py::list described_methods() {

@@ -12,6 +12,7 @@ from ._compare import Comparison, compare
 from ._density import Density, density
 from ._factors import PointFactors, ViewFactors
 from ._hemilux import __version__
+from ._lighting import Lamp, Lightmap, Picture, PointLight
 from ._mesh import Mesh, read
 from ._rays import Hits, Rays, rays
 from ._solve import Solution, methods, solve
@@ -22,8 +23,12 @@ __all__ = [
     "Comparison",
     "Density",
     "Hits",
+    "Lamp",
+    "Lightmap",
     "Mesh",
+    "Picture",
     "PointFactors",
+    "PointLight",
     "Rays",
     "Solution",
     "Sunlit",

@@ -8,7 +8,9 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _hemilux
-from ._checks import Progress, natural, rows_of_three, threads_and_seed, warn
+from ._checks import (Progress, axis, natural, numbers, places_with_normals, rows_of_three,
+                      threads_and_seed, warn)
+from ._lighting import Lamp, Lightmap, Picture, PointLight, gather, lamps_of
 from ._mesh import Mesh
 
 
@@ -62,10 +64,90 @@ class Solution:
     rays_density: int
     bytes_density: int
     seconds: float
+    _run: Any = None
 
     def __repr__(self) -> str:
         return (f"<hemilux.Solution by {self.method}: {len(self.radiosity)} patches, "
                 f"{len(self.steps['step'])} steps, estimated error {self.estimated_error:.2g}>")
+
+    def points(self, points: Any, error: float = 0.02, **asked: Any) -> PointLight:
+        """Gather the light at points: rows x, y, z, nx, ny, nz, as ``hemilux solve --points``.
+
+        Parameters
+        ----------
+        points : array_like of float, shape (n, 6)
+            Places on faces [m], and the normals along which they receive light.
+        error : float, optional
+            Error of all points together that is asked for, relative [-].
+        **asked
+            ``max_rays`` and ``seconds`` end it before; ``seed``, ``threads`` and ``progress`` as
+            of `solve`.
+        """
+        places = places_with_normals("points", points)
+        return PointLight(**gather("points", self._run, (places,), error, asked))
+
+    def picture(self, camera: Any = None, size: tuple[int, int] = (800, 600), error: float = 0.02,
+                *, up: Optional[str] = None, **asked: Any) -> Picture:
+        """Gather the light that a pinhole camera shows, as ``hemilux solve -o picture.hdr``.
+
+        Parameters
+        ----------
+        camera : sequence of 6, 7 or 10 floats, optional
+            Eye and target [m], the vertical angle in degrees, the direction upwards. Without one
+            it is chosen for the scene.
+        size : tuple of int, optional
+            Width and height in pixels.
+        error : float, optional
+            Error of the whole picture that is asked for, relative [-].
+        up : str, optional
+            Axis that points up for a camera that is chosen: 'y' or 'z'.
+        **asked
+            As of `points`.
+        """
+        view = None if camera is None else numbers("camera", camera).tolist()
+        if view is not None and len(view) not in (6, 7, 10):
+            raise ValueError(f"camera: expected 6, 7 or 10 numbers, found {len(view)}")
+        if view is not None and view[:3] == view[3:6]:
+            raise ValueError("camera: expected an eye and a target that differ")
+        width, height = (natural("size", side, 16384) for side in size)
+        if not width or not height:
+            raise ValueError("size: expected sides above 0")
+        return Picture(**gather("picture", self._run,
+                                (view, width, height, None if up is None else axis(up)), error,
+                                asked))
+
+    def lightmap(self, size: int, light: str = "radiosity", error: float = 0.05,
+                 **asked: Any) -> Lightmap:
+        """Gather the light of a square on which all surfaces have a place.
+
+        Parameters
+        ----------
+        size : int
+            Texels along a side.
+        light : str, optional
+            'radiosity', what surfaces send, or 'irradiance', what arrives there.
+        error : float, optional
+            Error of the whole lightmap that is asked for, relative [-].
+        **asked
+            As of `points`.
+        """
+        if light not in ("radiosity", "irradiance"):
+            raise ValueError(f"light: expected 'radiosity' or 'irradiance', found {light!r}")
+        return Lightmap(**gather("lightmap", self._run,
+                                 (natural("size", size, 16384), light == "irradiance"), error,
+                                 asked))
+
+    def lamps(self, by: str = "lamp", *, threads: int = 0, progress: Progress = None) -> list[Lamp]:
+        """Return the light of each lamp by itself, as ``hemilux solve --layers``.
+
+        Parameters
+        ----------
+        by : str, optional
+            'lamp', or 'group' or 'material' for all of one together.
+        """
+        if by not in ("lamp", "group", "material"):
+            raise ValueError(f"by: expected 'lamp', 'group' or 'material', found {by!r}")
+        return lamps_of(self._run, by, natural("threads", threads, 4096), progress)
 
 
 def _set(numbers: Any, name: str, value: Any) -> None:
