@@ -49,7 +49,7 @@ int main() {
     densities.leaves(0, leaves);
 
     std::printf("level  density  solid angle [sr]\n");
-    float densest = 0;
+    double densest = 0;
     double solid_angle = 0;
     for (const DensityLeaf& leaf : leaves) {
         const Hemisphere::Cell& cell = hemisphere.cells()[leaf.cell];
