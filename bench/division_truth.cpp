@@ -7,18 +7,16 @@
 
 #include "app/command_line/option_groups.h"
 #include "app/command_line/option_kinds.h"
-#include "app/division/auto_division.h"
 #include "app/division/whole_error.h"
 #include "app/loading/load.h"
 #include "app/loading/sides.h"
-#include "app/running/target_weights.h"
+#include "app/running/run_target.h"
 #include "division_families.h"
 #include "parallel/workers.h"
 #include "path_reference.h"
-#include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/answers/division/whole_error.h"
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/light/cached_light/patch_light.h"
-#include "radiosity/light/division/adaptive_division.h"
 #include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/sampling/rng.h"
 
@@ -128,17 +126,18 @@ std::vector<TruthPoint> draw_points(const Mesh& mesh, std::span<const double> we
     return points;
 }
 
-/// What --divide auto is asked for.
-SolveSettings solve_settings(const Settings& settings) {
-    SolveSettings solve;
-    solve.method = &method_of(Role::standard);
-    solve.divide_auto = settings.max_edge == 0;
-    solve.options.threads = settings.threads;
-    solve.verbosity = Verbosity::quiet;
-    solve.target.groups = settings.groups;
-    solve.view = settings.view;
-    solve.target.camera = settings.view.camera.has_value();
-    return solve;
+/// What runs are for.
+RunTarget target_of(const Settings& settings, const Scene& scene) {
+    RunTarget target;
+    for (const std::string& group : settings.groups)
+        target.groups.push_back(static_cast<std::uint32_t>(std::ranges::find(scene.groups, group) -
+                                                           scene.groups.begin()));
+    if (settings.view.camera)
+        target.picture = TargetPicture{*settings.view.camera, settings.view.size};
+    return target;
+}
+std::vector<double> weights_of(const Settings& settings, const Mesh& mesh, const Tracer& tracer) {
+    return target_weights(target_of(settings, mesh.scene()), mesh, tracer, settings.threads);
 }
 
 /// An error with one sigma of it.
@@ -152,10 +151,8 @@ class Truth {
     Truth(const Scene& scene, const MeshOptions& options, const Settings& settings)
         : scene_(scene), options_(options) {
         const Mesh mesh = layered_mesh(scene, options);
-        const MadeTracer made = make_tracer(mesh, true, settings.threads);
-        points_ =
-            draw_points(mesh, target_weights(solve_settings(settings), {}, mesh, *made.tracer),
-                        settings.points);
+        const MadeTracer made = make_tracer(mesh, settings.threads);
+        points_ = draw_points(mesh, weights_of(settings, mesh, *made.tracer), settings.points);
         const PathReference reference(mesh, *made.tracer);
         constexpr std::size_t points_per_chunk = 16;
         Workers(settings.threads)
@@ -213,63 +210,59 @@ class Truth {
     std::vector<TruthPoint> points_;
 };
 
-struct Run {
+struct Outcome {
     double reported = 0, truth = 0, doubt = 0, sampling = 0, division = 0, seconds = 0;
     std::uint64_t rays = 0; ///< all of them
     std::size_t patches = 0;
 };
 
-Run run_once(const Truth& truth, const Settings& settings, double error, std::uint64_t seed) {
+Outcome run_once(const Truth& truth, const Settings& settings, double error, std::uint64_t seed) {
+    constexpr std::uint64_t max_rays = 2'000'000'000;
     const std::clock_t start = std::clock();
-    Mesh mesh = truth.mesh(settings.max_edge);
-    SolveSettings solve = solve_settings(settings);
-    solve.options.seed = seed;
-    solve.stop.error = error;
-    const MadeTracer made = make_tracer(mesh, find_needs(mesh).tree, settings.threads);
+    RunWatcher nobody;
     Monitor monitor;
-    Statistics statistics;
-    SolveOptions options = solve.options;
-    options.stop.error = share_of_sampling * error;
-    Needs needs;
-    std::vector<double> target;
-    if (settings.for_all)
-        solve.target = {};
-    SolverInput input{mesh, *made.tracer, options, monitor, needs};
-    const auto mesh_changed = [&] {
-        needs = find_needs(mesh);
-        input.target = target = target_weights(solve, {}, mesh, *made.tracer);
-    };
-    mesh_changed();
-    const auto begin = [&] { return solve.method->make(input); };
-    Divided divided = divide_as_asked(solve, mesh, input, begin, mesh_changed, statistics);
-    const auto solver = divided.begun ? std::move(divided.begun) : begin();
-    run(*solver, input,
-        {.steps = {},
-         .seconds = {},
-         .error = divided.sampling.value_or(*options.stop.error),
-         .rays = 2'000'000'000},
-        {}, divided.before());
-    Solution solution = solver->solution();
+    Problem problem = prepare(std::make_shared<Mesh>(truth.mesh(settings.max_edge)), {},
+                              {.threads = settings.threads}, nobody);
+    if (!settings.for_all)
+        problem.aim_at(target_of(settings, problem.mesh->scene()));
+    const Method& standard = method_of(Role::standard);
+    RunChoices choices{.method = &standard, .sampling = share_of_sampling * error};
+    choices.options.seed = seed;
+    choices.options.threads = settings.threads;
+    Divided divided;
+    if (settings.max_edge == 0)
+        divided = divide(std::move(problem), choices, {.error = error, .standard = &standard},
+                         monitor, nobody);
+    else
+        divided.problem = std::make_shared<const Problem>(std::move(problem));
+    Run run = divided.run ? *std::move(divided.run) : begin(divided.problem, choices, monitor);
+    go_on(run,
+          {.steps = {},
+           .seconds = {},
+           .error = divided.sampling.value_or(*choices.sampling),
+           .rays = max_rays},
+          nobody);
+    Solution solution = run.solution();
     solution.slope = divided.slope;
-    statistics.estimated_error = estimated_error(mesh, solution);
-    solve.divide_auto = true;
-    add_division_error(statistics, solve, mesh, *made.tracer, solution, divided,
-                       monitor.interrupted);
-    Run done;
+    WholeError whole = error_of_sampling(run.mesh(), solution);
+    find_error_of_division(whole, divided, solution,
+                           {.is_asked_for = true, .seed = seed, .threads = settings.threads},
+                           monitor.interrupted);
+    Outcome done;
     done.seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
-    done.reported = statistics.estimated_error;
-    done.sampling = statistics.error_sampling;
-    done.division = statistics.error_division;
-    done.patches = mesh.patches().size();
-    done.rays = solution.rays_energy + statistics.rays_divide + statistics.rays_division_error;
-    solution.weight = target_weights(solve_settings(settings), {}, mesh, *made.tracer);
-    const TrueError off = truth.error_of(mesh, solution);
+    done.reported = whole.error();
+    done.sampling = whole.sampling;
+    done.division = whole.division.error;
+    done.patches = run.mesh().patches().size();
+    done.rays = solution.rays_energy + divided.work.rays + divided.work.rays_error + whole.rays;
+    solution.weight = weights_of(settings, run.mesh(), *run.problem->tracer);
+    const TrueError off = truth.error_of(run.mesh(), solution);
     done.truth = off.value;
     done.doubt = off.uncertainty;
     return done;
 }
 
-void print_run(const Run& run) {
+void print_run(const Outcome& run) {
     std::printf("    %7zu patches, reported %6.3f %% (sampling %6.3f, division %6.3f), true %6.3f "
                 "+- %.3f %%, ratio %.3f, %.3g M rays, %.3g s\n",
                 run.patches, 100 * run.reported, 100 * run.sampling, 100 * run.division,
@@ -292,7 +285,7 @@ void measure(const std::string& name, const Scene& scene, const MeshOptions& opt
         std::vector<double> ratio, patches, rays, seconds, whole, reported;
         std::size_t right = 0;
         for (std::uint64_t seed = 1; seed <= settings.seeds; ++seed) {
-            const Run run = run_once(truth, settings, error, seed);
+            const Outcome run = run_once(truth, settings, error, seed);
             if (settings.every_run)
                 print_run(run);
             ratio.push_back(run.reported / run.truth);

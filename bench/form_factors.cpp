@@ -12,7 +12,8 @@
 #include "geometry/projected_polygon.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/engine/factors/points/hemicube.h"
-#include "radiosity/engine/form_factors/exact_form_factors.h"
+#include "radiosity/engine/form_factors/closed_form_factors.h"
+#include "radiosity/engine/form_factors/sampled_form_factors.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 
@@ -39,7 +40,7 @@ struct Errors {
 
 /// Of all pairs that are known. `factor_of(i, row)` fills a row of the matrix.
 template <class FillRow>
-Errors errors_of(const ExactFormFactors& exact, std::uint32_t patches, const FillRow& fill_row) {
+Errors errors_of(const ClosedFormFactors& exact, std::uint32_t patches, const FillRow& fill_row) {
     Errors errors;
     std::vector<double> row(patches);
     for (std::uint32_t i = 0; i < patches; ++i) {
@@ -52,7 +53,7 @@ Errors errors_of(const ExactFormFactors& exact, std::uint32_t patches, const Fil
     return errors;
 }
 
-Errors errors_of(const ExactFormFactors& exact, const SparseMatrix& matrix) {
+Errors errors_of(const ClosedFormFactors& exact, const SparseMatrix& matrix) {
     return errors_of(exact, static_cast<std::uint32_t>(matrix.rows()),
                      [&](std::uint32_t i, std::vector<double>& row) {
                          for (std::size_t k = matrix.row_begin[i]; k < matrix.row_begin[i + 1]; ++k)
@@ -60,7 +61,7 @@ Errors errors_of(const ExactFormFactors& exact, const SparseMatrix& matrix) {
                      });
 }
 
-Errors errors_of_centres(const ExactFormFactors& exact, const Mesh& mesh) {
+Errors errors_of_centres(const ClosedFormFactors& exact, const Mesh& mesh) {
     const auto patches = mesh.patches();
     return errors_of(
         exact, static_cast<std::uint32_t>(patches.size()),
@@ -77,10 +78,10 @@ void measure(const Mesh& mesh) {
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = 1});
     const Workers all(0), one(1);
     Monitor monitor;
-    const ExactFormFactors exact(mesh, all, monitor);
+    const ClosedFormFactors exact(mesh, bvh, all, monitor);
     std::printf("%zu patches, %llu pairs by contour integration, %llu left out\n\n",
-                mesh.patches().size(), static_cast<unsigned long long>(exact.exact_pairs()),
-                static_cast<unsigned long long>(exact.sampled_pairs()));
+                mesh.patches().size(), static_cast<unsigned long long>(exact.clear_pairs()),
+                static_cast<unsigned long long>(exact.other_pairs()));
     std::printf("            hemicube                  rays\n"
                 "   N  3 N^2     time    mean  largest     time    mean  largest\n");
     for (const std::uint32_t edge : {16u, 32u, 64u, 128u, 256u, 512u}) {

@@ -37,7 +37,7 @@ void measure(const Settings& settings) {
     scene.path = settings.scene;
     ReadResult read = load_scene(scene, {});
     const Mesh mesh = divide_with_sides(std::move(read.scene), scene, {}, Verbosity::quiet).mesh;
-    const MadeTracer made = make_tracer(mesh, find_needs(mesh).tree, 0);
+    const MadeTracer made = make_tracer(mesh);
     const std::vector<PatchPoint> points =
         PointsOverSurface(mesh).draw(settings.points, settings.seed);
     std::FILE* const file = std::fopen(settings.points_output.c_str(), "w");

@@ -75,7 +75,7 @@ void print_shares(unsigned count, const std::vector<RayCounts>& counts,
 
 void measure(const std::string& path, double max_edge, double rays) {
     const Mesh mesh = layered_mesh(read_obj(path).scene, {.max_edge = max_edge});
-    const MadeTracer made = make_tracer(mesh, true);
+    const MadeTracer made = make_tracer(mesh);
     const Needs needs = find_needs(mesh);
     const double each = rays / (2 * batches);
     RayPlan plan(mesh, needs, each, small_emitters(mesh).empty() ? 0 : each, RayGoal{true, 0});

@@ -4,12 +4,12 @@
 
 # These files of src/ it does without. A file that it needs and that is named here is missed when it is linked.
 set(HEMILUX_NOT_FIRST
-  "radiosity/(research|light/cached_light/page|light/lamps/lamp_powers)"
+  "radiosity/(research|light/cached_light/page|light/lamps/lamp_powers|answers/run/side_by_side)"
   "radiosity/paper/(pages/(section_|step)|solving/mean_of_steps)"
   "radiosity/engine/(checks|factors/(points|rows)|heat|progressive)/"
   "radiosity/engine/densities/(cell_directions|subdivision_1997)"
-  "radiosity/engine/factors/pairs/(convex|exchange|facing|free|hidden|line|pair_)"
-  "radiosity/engine/form_factors/(exact|factor_options|matrix_quality|sampled)"
+  "radiosity/engine/factors/pairs/(convex|exchange|facing|free_|hidden|line|pair_)"
+  "radiosity/engine/form_factors/(closed|factor_options|matrix_quality|sampled)"
   "radiosity/engine/linear/(batch|emitter_losses|gmres|hemicube|radiosity_system)"
   "radiosity/engine/methods/(cosine|hemisphere|matrix|monte_carlo|progressive|stratified)"
   "radiosity/engine/(shooting/(bounces|grouped|shooting|stepwise)|sparse/sparse_matrix)"

@@ -18,8 +18,9 @@ endforeach()
 target_link_libraries(hemilux_io PUBLIC hemilux)
 # nlohmann-json takes longer to compile than what uses it: once for all.
 set_source_files_properties(
-  src/io/gltf/document/json_value.cpp src/io/gltf/lit_file.cpp src/io/meshes/glb.cpp
-  src/io/results/scene_info_json.cpp src/io/results/statistics.cpp PROPERTIES UNITY_GROUP json)
+  src/io/gltf/document/json_value.cpp src/io/gltf/lit_file.cpp src/io/gltf/lit_materials.cpp
+  src/io/gltf/open_document.cpp src/io/meshes/glb.cpp src/io/results/scene_info_json.cpp
+  src/io/results/statistics.cpp PROPERTIES UNITY_GROUP json)
 set_target_properties(hemilux_io PROPERTIES EXPORT_NAME io)
 if(ZLIB_FOUND)
   set_source_files_properties(src/io/pictures/picture_files.cpp PROPERTIES COMPILE_DEFINITIONS HEMILUX_ZLIB)

@@ -6,6 +6,7 @@
 // Prints: the estimated error after each step that doubles the rays, at last where the picture is.
 
 #include "bvh/wide/wide_bvh.h"
+#include "io/pictures/picture_files.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/answers/pictures/render.h"
 #include "radiosity/engine/solving/method.h"

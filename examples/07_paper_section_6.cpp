@@ -8,6 +8,7 @@
 // and its memory, as a table in Markdown. FOLDER gets the pictures.
 
 #include "bvh/wide/wide_bvh.h"
+#include "io/pictures/picture_files.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/answers/pictures/render.h"
 #include "radiosity/engine/solving/method.h"

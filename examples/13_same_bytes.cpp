@@ -57,7 +57,7 @@ class Hash {
 struct Room {
     explicit Room(const std::string& scene)
         : name(scene), mesh(test::example_scene(scene)), needs(find_needs(mesh)),
-          tracer(make_tracer(mesh, needs.tree, 1).tracer) {}
+          tracer(make_tracer(mesh, 1).tracer) {}
 
     void add(const std::string& what, const Hash& hash) {
         char text[17];

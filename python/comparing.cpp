@@ -6,7 +6,6 @@
 #include "python/parts.h"
 #include "python/run.h"
 #include "python/waiting.h"
-#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <pybind11/stl.h>
@@ -45,9 +44,10 @@ Reference compute_reference(const PythonMesh& mesh, const RunNumbers& numbers, d
     of_reference.threshold = numbers.threshold;
     of_reference.threads = numbers.threads;
     of_reference.seed = hash_words({numbers.seed, 0x7265666572656e63u});
-    const auto run =
+    const RunResult found =
         run_method(mesh, settings_of(method_of(Role::reference), of_reference), {}, monitor);
-    return {run->solver->solution().radiosity, run->solver->solution().standard_error, {}};
+    const Solution& solution = found.run.solution();
+    return {solution.radiosity, solution.standard_error, {}};
 }
 
 py::dict rows_of(const std::vector<StepRow>& rows) {
@@ -102,9 +102,9 @@ py::tuple compare(const PythonMesh& mesh, const std::vector<std::string>& names,
             reference = compute_reference(mesh, numbers, reference_error, monitor);
         if (monitor.interrupted)
             return;
-        const Needs needs = numbers.keep_all ? everything_needed : find_needs(mesh.mesh());
-        results = run_methods({mesh.mesh(), mesh.tree(numbers.threads), settings, reference,
-                               nullptr, monitor, needs, mesh.warnings(), 1},
+        const auto problem = mesh.problem(numbers.keep_all, numbers.threads);
+        results = run_methods({mesh.mesh(), *problem->tracer, settings, reference, nullptr, monitor,
+                               problem, mesh.warnings(), 1},
                               fault, [](const StepRow&, double) {});
     });
     if (fault)

@@ -1,15 +1,13 @@
 #include "python/run.h"
 
-#include "app/division/default_division.h"
+#include "app/division/whole_error.h"
 #include "app/loading/load.h"
-#include "app/memory/memory.h"
-#include "app/running/step_size.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
-#include "parallel/stopwatch.h"
-#include "radiosity/engine/emitters/lit_by_points.h"
-#include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/answers/run/lost_light.h"
+#include "radiosity/answers/run/run_findings.h"
+#include "radiosity/answers/run/unknown_groups.h"
 #include "radiosity/engine/solving/method_option.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 
@@ -54,6 +52,35 @@ void set_own_options(const Method& method, const RunNumbers& numbers, SolveOptio
     }
 }
 
+/// Finds the true error of each step, where there is a reference.
+class ErrorWatcher : public RunWatcher {
+  public:
+    ErrorWatcher(const Mesh& mesh, std::span<const Vec3> reference)
+        : mesh_(mesh), reference_(reference) {}
+    void step_done(const StepRecord& /*record*/, const Solution& solution) override {
+        if (!reference_.empty())
+            errors.push_back(true_error(mesh_, solution.radiosity, reference_).all);
+    }
+    std::vector<double> errors;
+
+  private:
+    const Mesh& mesh_;
+    std::span<const Vec3> reference_;
+};
+
+/// Returns what there is to say of a run and its light.
+Findings findings_of(const Run& run, const RunChoices& choices) {
+    const Solution& solution = run.solution();
+    Findings findings =
+        run_findings(run.steps, {.stop = stop_rule(choices, run.mesh().patches().size()),
+                                 .estimates_error = choices.work().estimates_error,
+                                 .error = estimated_error(run.mesh(), solution),
+                                 .interrupted = !run.completed});
+    add(findings, unknown_groups_finding(run.mesh(), solution));
+    add(findings, lost_light_finding(run.mesh(), *run.problem->tracer, solution, Sides::front));
+    return findings;
+}
+
 } // namespace
 
 const Method& method_named(const std::string& name) {
@@ -88,37 +115,22 @@ SolveSettings settings_of(const Method& method, const RunNumbers& numbers) {
     return settings;
 }
 
-std::unique_ptr<RunResult> run_method(const PythonMesh& mesh, const SolveSettings& settings,
-                                      std::span<const Vec3> reference, Monitor& monitor) {
+RunResult run_method(const PythonMesh& mesh, const SolveSettings& settings,
+                     std::span<const Vec3> reference, Monitor& monitor) {
     mesh.check_solvable();
-    const std::size_t patches = mesh.mesh().patches().size();
-    check_own_options(settings.options, {&settings.method, 1}, patches);
-    auto result = std::make_unique<RunResult>();
-    SolveOptions& options = result->options = with_memory(settings.options, {}, 0);
-    const StopRule stop = stop_rule(settings, patches);
-    options.rays = rays_of_step(options.rays, settings.stop.seconds, *settings.method, patches);
-    options.stop = stop;
-    if (!options.keep_all)
-        result->needs = find_needs(mesh.mesh());
-    if (!result->needs.tree)
-        result->tracer = make_tracer(mesh.mesh(), false, options.threads);
-    const Tracer* const own = result->tracer.tracer.get();
-    const SolverInput input{mesh.mesh(), own ? *own : mesh.tree(options.threads), options, monitor,
-                            result->needs};
-    const Stopwatch solving;
+    check_own_options(settings.options, {&settings.method, 1}, mesh.mesh().patches().size());
+    const std::shared_ptr<const Problem> problem =
+        mesh.problem(settings.options.keep_all, settings.options.threads);
+    ErrorWatcher watcher(mesh.mesh(), reference);
+    const RunChoices choices = run_choices(settings);
     try {
-        result->solver = make_solver(*settings.method, input);
-        run(*result->solver, input, stop, [&](const StepRecord& record, const Solution& solution) {
-            result->steps.push_back(record);
-            if (!reference.empty())
-                result->true_errors.push_back(
-                    true_error(mesh.mesh(), solution.radiosity, reference).all);
-        });
+        RunResult result{solve(problem, choices, monitor, watcher), {}, {}};
+        result.true_errors = std::move(watcher.errors);
+        result.findings = findings_of(result.run, choices);
+        return result;
     } catch (const SolveError& error) {
         throw as_input_error(error, mesh.name(), mesh.face_lines());
     }
-    result->seconds = solving.seconds();
-    return result;
 }
 
 } // namespace hemilux

@@ -4,12 +4,9 @@
 #include "app/settings/settings.h"
 #include "python/arrays.h"
 #include "python/scene.h"
-#include "radiosity/engine/rays/make_tracer.h"
-#include "radiosity/engine/solving/run.h"
-#include "radiosity/paper/scene/needs.h"
+#include "radiosity/answers/run/run.h"
 
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,20 +32,14 @@ struct RunNumbers {
 [[nodiscard]] SolveSettings settings_of(const Method& method, const RunNumbers& numbers);
 
 struct RunResult {
-    SolveOptions options;
-    Needs needs;
-    MadeTracer tracer;              ///< empty where the mesh's own is used
-    std::unique_ptr<Solver> solver; ///< refers to all of these, and to the mesh
-    std::vector<StepRecord> steps;
+    Run run;
     std::vector<double> true_errors; ///< by step; empty without a reference
-    double seconds = 0;
+    Findings findings;               ///< what there is to say of it
 };
 
 /// Runs a method until a rule or the monitor ends it. Where the monitor is interrupted the result
 /// is that of the steps before. Throws InputError where the scene cannot be solved.
-[[nodiscard]] std::unique_ptr<RunResult> run_method(const PythonMesh& mesh,
-                                                    const SolveSettings& settings,
-                                                    std::span<const Vec3> reference,
-                                                    Monitor& monitor);
+[[nodiscard]] RunResult run_method(const PythonMesh& mesh, const SolveSettings& settings,
+                                   std::span<const Vec3> reference, Monitor& monitor);
 
 } // namespace hemilux

@@ -3,6 +3,7 @@
 #include "app/loading/load.h"
 #include "app/settings/exit_code.h"
 #include "io/polygons/polygon_division.h"
+#include "radiosity/engine/needs/find_needs.h"
 
 #include <cmath>
 
@@ -110,9 +111,15 @@ std::unique_ptr<PythonMesh> finish(ReadResult read, const SceneSettings& setting
 const WideBvh& PythonMesh::tree(unsigned threads) const {
     const std::lock_guard lock(mutex_);
     if (!tree_)
-        tree_ = std::make_unique<const WideBvh>(mesh_.soup_to_trace(),
+        tree_ = std::make_shared<const WideBvh>(mesh_->soup_to_trace(),
                                                 WideBvhOptions{.threads = threads});
     return *tree_;
+}
+
+std::shared_ptr<const Problem> PythonMesh::problem(bool keep_all, unsigned threads) const {
+    (void)tree(threads);
+    return std::make_shared<const Problem>(
+        prepare(mesh_, tree_, {.keep_all = keep_all, .threads = threads}));
 }
 
 void PythonMesh::check_solvable() const {

@@ -4,6 +4,7 @@
 #include "bvh/wide/wide_bvh.h"
 #include "io/scene_files/read_result.h"
 #include "python/arrays.h"
+#include "radiosity/answers/run/problem.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <memory>
@@ -18,12 +19,14 @@ namespace hemilux {
 class PythonMesh {
   public:
     PythonMesh(Mesh mesh, ReadResult read, std::string name, int up, std::string fault)
-        : mesh_(std::move(mesh)), read_(std::move(read)), name_(std::move(name)), up_(up),
-          fault_(std::move(fault)) {}
+        : mesh_(std::make_shared<Mesh>(std::move(mesh))), read_(std::move(read)),
+          name_(std::move(name)), up_(up), fault_(std::move(fault)) {}
 
-    [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+    [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
     /// Returns the tree of the mesh; the first call builds it.
     [[nodiscard]] const WideBvh& tree(unsigned threads) const;
+    /// Returns what runs solve; by a tree, where they need one, which is built once for all.
+    [[nodiscard]] std::shared_ptr<const Problem> problem(bool keep_all, unsigned threads) const;
     [[nodiscard]] int up() const { return up_; } ///< axis that points to the sky
     [[nodiscard]] const std::vector<std::string>& warnings() const { return read_.warnings; }
     [[nodiscard]] const std::vector<std::uint32_t>& face_lines() const { return read_.face_lines; }
@@ -33,13 +36,13 @@ class PythonMesh {
     void check_solvable() const;
 
   private:
-    Mesh mesh_;
+    std::shared_ptr<Mesh> mesh_;
     ReadResult read_; ///< without its scene
     std::string name_;
     int up_;
     std::string fault_; ///< why it cannot be solved; empty: it can
     mutable std::mutex mutex_;
-    mutable std::unique_ptr<const WideBvh> tree_;
+    mutable std::shared_ptr<const WideBvh> tree_;
 };
 
 /// Faces as arrays. Python has checked the shapes.

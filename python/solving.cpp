@@ -25,7 +25,7 @@ py::dict energy_of(const EnergyBalance& energy) {
 }
 
 py::dict steps_of(RunResult& run) {
-    const std::vector<StepRecord>& steps = run.steps;
+    const std::vector<StepRecord>& steps = run.run.steps;
     const std::size_t n = steps.size();
     py::dict result;
     result["step"] = array_by<std::int64_t>(n, [&](std::size_t k) { return steps[k].step; });
@@ -39,11 +39,11 @@ py::dict steps_of(RunResult& run) {
 }
 
 py::dict result_of(const PythonMesh& mesh, const SolveSettings& settings, RunResult& run) {
-    const Solution& found = run.solver->solution();
+    const Solution& found = run.run.solution();
     py::dict result;
     const double error = estimated_error(mesh.mesh(), found);
     result["method"] = std::string(settings.method->name);
-    result["seed"] = run.options.seed;
+    result["seed"] = run.run.options->seed;
     result["steps"] = steps_of(run);
     result["estimated_error"] = error;
     result["uncertainty"] = error * error_spread(mesh.mesh(), found).uncertainty();
@@ -51,25 +51,31 @@ py::dict result_of(const PythonMesh& mesh, const SolveSettings& settings, RunRes
     result["rays_energy"] = found.rays_energy;
     result["rays_density"] = found.rays_density;
     result["bytes_density"] = found.bytes_density;
-    result["seconds"] = run.seconds;
+    result["seconds"] = run.run.seconds;
     py::list not_done;
-    if (!run.options.keep_all)
-        for (const LeftOut& left : left_out(run.needs, settings.work(), found))
+    if (!run.run.options->keep_all)
+        for (const LeftOut& left : left_out(run.run.problem->needs, settings.work(), found))
             not_done.append(py::make_tuple(left.what, left.why, left.saved));
     result["left_out"] = not_done;
+    py::list warnings;
+    for (const Finding& finding : run.findings)
+        if (finding.kind == Finding::Kind::warning)
+            warnings.append(finding.text); // the advice names options of the command line
+    result["warnings"] = warnings;
     // The solver's own arrays would not outlive it.
     result["radiosity"] = array_of(std::vector<Vec3>(found.radiosity));
     result["standard_error"] = array_of(std::vector<Vec3>(found.standard_error));
     return result;
 }
 
-py::dict solve(const PythonMesh& mesh, const std::string& method, const RunNumbers& numbers,
-               const std::optional<Doubles>& reference, const py::object& progress) {
+py::dict solve_mesh(const PythonMesh& mesh, const std::string& method, const RunNumbers& numbers,
+                    const std::optional<Doubles>& reference, const py::object& progress) {
     const SolveSettings settings = settings_of(method_named(method), numbers);
     const std::span<const Vec3> known = reference ? rows_of(*reference) : std::span<const Vec3>{};
     Monitor monitor;
-    std::unique_ptr<RunResult> run;
-    run_without_lock(monitor, progress, [&] { run = run_method(mesh, settings, known, monitor); });
+    std::optional<RunResult> run;
+    run_without_lock(monitor, progress,
+                     [&] { run.emplace(run_method(mesh, settings, known, monitor)); });
     return result_of(mesh, settings, *run);
 }
 
@@ -97,7 +103,7 @@ void add_solve(py::module_& module) {
         .def_readwrite("seed", &RunNumbers::seed)
         .def_readwrite("threads", &RunNumbers::threads)
         .def_readwrite("own", &RunNumbers::own);
-    module.def("solve", &solve);
+    module.def("solve", &solve_mesh);
     module.def("methods", &described_methods);
 }
 

@@ -5,12 +5,13 @@
 #include "parallel/workers.h"
 #include "radiosity/engine/factors/pairs/exchange_area.h"
 #include "radiosity/engine/factors/points/hemicube.h"
-#include "radiosity/engine/form_factors/exact_form_factors.h"
+#include "radiosity/engine/form_factors/closed_form_factors.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/solving/solver.h"
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 
 using namespace hemilux;
 using namespace hemilux::lesson;
@@ -59,16 +60,16 @@ LESSON_CALL bool factor_hemicube(const Room* room, std::uint32_t patch, std::uin
 }
 
 /// Puts the matrix F of a room, row by row. Pairs that see each other fully are exact; the others
-/// are found by so many rays from each patch.
+/// are integrals along lines, and so many rays from each patch, a power of two, find what is lost.
 LESSON_CALL bool room_factors(const Room* room, std::uint32_t rays, double seed) {
     return answered([&] {
         const Workers workers(1);
         Monitor monitor;
-        const ExactFormFactors exact(room->mesh, workers, monitor);
-        SampledFormFactors sampled(room->mesh, room->tracer, {},
-                                   hash_words({static_cast<std::uint64_t>(seed), 0}));
-        (void)sampled.trace_up_to(rays, workers, monitor);
-        const SparseMatrix F = exact.matrix(sampled);
+        const ClosedFormFactors exact(room->mesh, room->tracer, workers, monitor);
+        const std::optional<ClosedFactors> factors = exact.batch(
+            static_cast<std::uint64_t>(seed), std::max(rays, ClosedFormFactors::min_rays),
+            relative_above(.01, 1e-3), workers, monitor);
+        const SparseMatrix& F = factors->matrix;
         const std::size_t n = F.rows();
         answer().assign(n * n, 0.0);
         for (std::size_t i = 0; i < n; ++i)

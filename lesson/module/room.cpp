@@ -34,7 +34,7 @@ void NotingTracer::note(const Ray& ray, const std::optional<Hit>& hit) const {
 
 Room::Room(Scene scene, double max_edge)
     : mesh(std::move(scene), {.max_edge = max_edge}), needs(find_needs(mesh)),
-      tracer(mesh, make_tracer(mesh, needs.tree, 1).tracer) {}
+      tracer(mesh, make_tracer(mesh, 1).tracer) {}
 
 namespace {
 

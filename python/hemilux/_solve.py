@@ -8,7 +8,7 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _hemilux
-from ._checks import Progress, natural, rows_of_three, threads_and_seed
+from ._checks import Progress, natural, rows_of_three, threads_and_seed, warn
 from ._mesh import Mesh
 
 
@@ -33,6 +33,9 @@ class Solution:
     steps : dict of ndarray
         By step: ``step``, ``rays`` and ``seconds`` so far, ``estimated_error`` [-], and with a
         reference ``true_error`` [-].
+    warnings : list of str
+        What may be wrong with it: light that is lost on backs of faces, an error that was not
+        reached or is not known. `solve` warns of each.
     left_out : list of tuple of str
         What the scene did not need and was not done: what, why, what it saved.
     energy : dict of ndarray, shape (3,)
@@ -52,6 +55,7 @@ class Solution:
     estimated_error: float
     uncertainty: float
     steps: dict[str, np.ndarray]
+    warnings: list[str]
     left_out: list[tuple[str, str, str]]
     energy: dict[str, np.ndarray]
     rays_energy: int
@@ -149,9 +153,18 @@ def solve(mesh: Mesh, method: str = "stored-transport", error: Optional[float] =
         Where light grows without bounds.
     KeyboardInterrupt
         After Ctrl-C; what was found is lost.
+
+    Warns
+    -----
+    UserWarning
+        For a lamp whose light falls on backs of faces or escapes, for an error that was not
+        reached, and for one that is not known.
     """
     numbers = _run_numbers(error=error, steps=steps, seconds=seconds, max_rays=max_rays, rays=rays,
                            depth=natural("depth", depth, 5), threshold=threshold, literal=literal,
                            keep_all=keep_all, seed=seed, threads=threads, own=own)
-    return Solution(**_hemilux.solve(mesh._core, method, numbers, _reference(reference, mesh),
-                                     progress))
+    found = Solution(**_hemilux.solve(mesh._core, method, numbers, _reference(reference, mesh),
+                                      progress))
+    for text in found.warnings:
+        warn(text)
+    return found

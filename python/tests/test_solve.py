@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+import warnings
 
 import numpy as np
 import pytest
@@ -31,6 +32,28 @@ def test_a_white_furnace_has_the_same_light_everywhere():
     for method in ("matrix", "stored-transport", "hemisphere", "progressive-monte-carlo"):
         found = hemilux.solve(mesh, method, rays=256, steps=4)
         assert found.radiosity == pytest.approx(np.full((6, 3), 2), rel=0.1)
+
+
+def test_a_lamp_that_faces_a_wall_is_warned_of():
+    faces = [[[0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]],  # a lamp that looks up, at the next
+             [[0, 0, 1.1], [1, 0, 1.1], [1, 1, 1.1], [0, 1, 1.1]],
+             [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]]
+    mesh = hemilux.Mesh(np.concatenate(faces).astype(float), np.arange(12).reshape(-1, 4),
+                        emission=[[1, 1, 1], [0, 0, 0], [0, 0, 0]])
+    with pytest.warns(UserWarning, match="nothing is lit: .* fell on backs of faces"):
+        found = hemilux.solve(mesh, steps=2)
+    assert len(found.warnings) == 1 and found.warnings[0].startswith("nothing is lit")
+
+
+def test_an_error_that_was_not_reached_is_warned_of():
+    with pytest.warns(UserWarning, match="before the error of 0.01 % was reached"):
+        hemilux.solve(room(max_edge=.5), error=1e-4, max_rays=10000)
+
+
+def test_a_solution_as_asked_for_has_no_warning():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert not hemilux.solve(room(max_edge=.5), error=0.05).warnings
 
 
 def test_all_methods_agree_with_the_matrix():

@@ -67,6 +67,8 @@ const std::vector<std::string> rooms{
     "radiosity/answers/asked",
     "radiosity/answers/images",
     "radiosity/answers/views",
+    "radiosity/answers/run",
+    "radiosity/answers/division",
     "radiosity/answers/vertices",
     "radiosity/answers/pictures",
     "radiosity/answers/picture_check",

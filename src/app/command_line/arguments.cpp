@@ -5,7 +5,7 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
 #include "app/settings/shell_word.h"
-#include "io/files/text_words.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

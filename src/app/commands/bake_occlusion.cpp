@@ -21,7 +21,6 @@
 #include "radiosity/answers/lightmaps/covered_texels.h"
 #include "radiosity/answers/lightmaps/occlusion_gather.h"
 #include "radiosity/engine/needs/convex_enclosure.h"
-#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/rays/make_tracer.h"
 
 #include <algorithm>
@@ -155,7 +154,7 @@ int bake_occlusion(const SolveSettings& settings) {
     Statistics statistics;
     statistics.seconds_read = started.seconds();
     const Stopwatch building;
-    const MadeTracer made = make_tracer(mesh, needs_tree(mesh), settings.options.threads);
+    const MadeTracer made = make_tracer(mesh, settings.options.threads);
     statistics.seconds_bvh = building.seconds();
     const std::atomic<bool>& interrupted = monitor.interrupted.own().wished;
     guard.watch(monitor.interrupted.own().wished);

@@ -20,7 +20,7 @@
 #include "app/terminal/unused_options.h"
 #include "app/terminal/wrap.h"
 #include "radiosity/answers/asked/text.h"
-#include "radiosity/engine/emitters/lit_by_points.h"
+#include "radiosity/answers/run/run.h"
 #include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/paper/sampling/rng.h"
 
@@ -39,10 +39,31 @@ bool wants_bar(const CompareSettings& settings) {
     return settings.verbosity != Verbosity::quiet && stderr_is_terminal();
 }
 
+/// Shows how the reference gets on.
+class ReferenceWatcher : public RunWatcher {
+  public:
+    ReferenceWatcher(const CompareSettings& settings, const StopRule& stop, const Method& method,
+                     const Monitor& monitor)
+        : verbosity_(settings.verbosity), method_(method),
+          progress_(monitor, share_of(stop, method), wants_bar(settings)) {
+        progress_.set_topic("reference");
+    }
+    void step_done(const StepRecord& record, const Solution& /*solution*/) override {
+        progress_.step_done(record);
+        log_line(verbosity_, Verbosity::verbose,
+                 "reference, " + step_text({std::string(method_.name), 0, record, std::nullopt}));
+    }
+
+  private:
+    Verbosity verbosity_;
+    const Method& method_;
+    Progress progress_;
+};
+
 /// Runs the matrix method until it is good enough or interrupted, with random numbers that no run
 /// has. Empty where not even its first step was done.
-std::optional<Reference> compute_reference(const CompareSettings& settings, const Mesh& mesh,
-                                           const Tracer& tracer, const Needs& needs,
+std::optional<Reference> compute_reference(const CompareSettings& settings,
+                                           const std::shared_ptr<const Problem>& problem,
                                            Monitor& monitor) {
     const StopRule stop{.steps = {}, .seconds = {}, .error = settings.reference_error};
     const Method& method = method_of(Role::reference);
@@ -51,17 +72,10 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
     if (!method.work_with(options).estimates_error)
         options.own = {};
     options.seed = hash_words({options.seed, 0x7265666572656e63u});
-    const SolverInput input{
-        .mesh = mesh, .tracer = tracer, .options = options, .monitor = monitor, .needs = needs};
-    Progress progress(monitor, share_of(stop, method), wants_bar(settings));
-    progress.set_topic("reference");
-    const std::unique_ptr<Solver> solver = make_solver(method, input);
-    run(*solver, input, stop, [&](const StepRecord& record, const Solution&) {
-        progress.step_done(record);
-        log_line(settings.verbosity, Verbosity::verbose,
-                 "reference, " + step_text({std::string(method.name), 0, record, std::nullopt}));
-    });
-    const Solution& solution = solver->solution();
+    ReferenceWatcher watcher(settings, stop, method, monitor);
+    Run run = begin(problem, method, std::move(options), false, monitor);
+    go_on(run, stop, watcher);
+    const Solution& solution = run.solution();
     if (solution.steps == 0)
         return std::nullopt;
     return Reference{solution.radiosity, solution.standard_error, {}};
@@ -176,39 +190,40 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
         settings.verbosity, [&](double) { return bytes_of_compared_pictures(settings.view.size); },
         settings.reference.empty() ? &of_reference : nullptr);
     face_lines = std::move(loaded.face_lines);
-    const Mesh& mesh = loaded.mesh;
+    const Mesh& read = loaded.mesh;
     settings.view = view_of(settings.view, loaded.view, settings.verbosity);
-    check_camera(settings.view, mesh, settings.scene.path);
-    check_own_options(settings.options, methods, mesh.patches().size());
+    check_camera(settings.view, read, settings.scene.path);
+    check_own_options(settings.options, methods, read.patches().size());
     for (const MethodVariant& variant : settings.variants)
-        check_variant(variant, settings.options, mesh.patches().size());
-    std::vector<bool> detail = detail_mask(mesh, settings.detail);
+        check_variant(variant, settings.options, read.patches().size());
+    std::vector<bool> detail = detail_mask(read, settings.detail);
     std::optional<Reference> reference;
     if (!settings.reference.empty())
         reference =
-            reference_of(read_patch_table(settings.reference), settings.reference, mesh, {});
-    const Prepared prepared = prepare(loaded, settings.options, settings.verbosity);
-    const Needs& needs = prepared.needs;
-    const auto& [tracer, tree, crowd] = prepared.made;
+            reference_of(read_patch_table(settings.reference), settings.reference, read, {});
+    Prepared prepared = prepare(loaded, settings.options, settings.verbosity);
+    const auto problem = std::make_shared<const Problem>(std::move(prepared.problem));
+    const Mesh& mesh = *problem->mesh;
+    const Tracer& tracer = *problem->tracer;
     guard.watch(monitor.interrupted.own().wished);
     const SharedStop shared_stop(monitor.interrupted, *settings.ranks);
-    log_line(settings.verbosity, Verbosity::verbose, tracer_text(tree, prepared.seconds));
+    log_line(settings.verbosity, Verbosity::verbose, tracer_text(problem->tree, prepared.seconds));
     if (!reference)
-        reference = compute_reference(settings, mesh, *tracer, needs, monitor);
+        reference = compute_reference(settings, problem, monitor);
     if (!reference) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted before there was a reference");
         return exit_code_of_signal();
     }
     reference->detail = std::move(detail);
     const std::optional<KnownLight> light =
-        find_light(settings, mesh, *tracer, *reference, monitor.interrupted);
+        find_light(settings, mesh, tracer, *reference, monitor.interrupted);
     const Comparison comparison{mesh,
-                                *tracer,
+                                tracer,
                                 settings,
                                 *reference,
                                 light ? &*light : nullptr,
                                 monitor,
-                                needs,
+                                problem,
                                 loaded.warnings,
                                 mean_light(mesh, reference->radiosity),
                                 loaded.need.all()};

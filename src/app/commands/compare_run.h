@@ -1,15 +1,16 @@
 #pragma once
-// Runs several methods at once, step by step, so that whatever else disturbs the machine disturbs
-// all alike. The next step is always that of the method which is least far in its budget.
+// Runs several methods side by side, each several times, and judges every step by a reference.
 
 #include "app/loading/reference.h"
 #include "app/report/run_data.h"
 #include "app/settings/settings.h"
 #include "io/results/tables.h"
+#include "radiosity/answers/run/problem.h"
 #include "radiosity/light/final_gather/known_light.h"
 #include "radiosity/paper/solution/solve_error.h"
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace hemilux {
@@ -31,7 +32,7 @@ struct MethodRuns {
     std::vector<Vec3> radiosity; ///< light at the end of the first run that has a step [W/m2]
 };
 
-/// The things that the runs have in common; all of them outlive the runs.
+/// The things that the runs have in common; what they refer to outlives them.
 struct Comparison {
     const Mesh& mesh;
     const Tracer& tracer;
@@ -39,7 +40,7 @@ struct Comparison {
     const Reference& reference;
     const KnownLight* light; ///< none: errors are those on the patches
     Monitor& monitor;
-    const Needs& needs;
+    std::shared_ptr<const Problem> problem;
     std::span<const std::string> warnings; ///< messages of reading the scene
     double unit;                           ///< unit of the light on a page [W/m2]
     double bytes_needed = 0;               ///< MemoryNeed::all()

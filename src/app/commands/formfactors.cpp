@@ -2,7 +2,6 @@
 
 #include "app/commands/commands.h"
 #include "app/loading/load_geometry.h"
-#include "app/running/run_notes.h"
 #include "app/running/signals.h"
 #include "app/running/write_report.h"
 #include "app/settings/exit_code.h"
@@ -14,10 +13,12 @@
 #include "bvh/wide/wide_bvh.h"
 #include "io/results/factor_files.h"
 #include "radiosity/answers/asked/text.h"
+#include "radiosity/answers/run/run_findings.h"
 #include "radiosity/engine/factors/points/hemicube.h"
-#include "radiosity/engine/form_factors/exact_form_factors.h"
+#include "radiosity/engine/form_factors/closed_form_factors.h"
 #include "radiosity/engine/form_factors/factor_options.h"
 #include "radiosity/engine/form_factors/matrix_quality.h"
+#include "radiosity/engine/form_factors/sampled_form_factors.h"
 #include "radiosity/engine/solving/own_options.h"
 
 #include <algorithm>
@@ -32,8 +33,6 @@ void check_size(const FormFactorSettings& settings, std::size_t patches) {
     if (patches > settings.max_dense && std::ranges::any_of(settings.outputs, is_dense))
         throw UsageError("a dense .npy matrix is for up to " + grouped(settings.max_dense) +
                          " patches, not " + grouped(patches) + "; write .csv instead");
-    const Method* const same = &method_of(Role::reference);
-    check_own_options(settings.options, {&same, 1}, patches);
 }
 
 void log_quality(Verbosity verbosity, const MatrixQuality& quality) {
@@ -85,9 +84,29 @@ std::optional<Factors> by_hemicubes(const FormFactorSettings& settings, const Me
     if (monitor.interrupted)
         return std::nullopt;
     log_rays(settings.verbosity, mesh.patches().size(), factors.rays);
-    log_line(settings.verbosity, Verbosity::normal, hemicube_note);
+    log_line(settings.verbosity, Verbosity::normal, hemicube_finding().with_advice());
     const MatrixQuality quality = assess_matrix(factors.matrix, mesh, factors.lost);
     return Factors{std::move(factors.matrix), quality};
+}
+
+/// Finds the factors by integrals; nothing where the user interrupted.
+std::optional<Factors> by_integrals(const FormFactorSettings& settings, const Mesh& mesh,
+                                    const Tracer& tracer, const Workers& workers,
+                                    Monitor& monitor) {
+    const ClosedFormFactors exact(mesh, tracer, workers, monitor);
+    const std::uint32_t rays = std::max(settings.rays, ClosedFormFactors::min_rays);
+    std::optional<ClosedFactors> factors =
+        monitor.interrupted
+            ? std::nullopt
+            : exact.batch(settings.options.seed, rays, relative_above(.01, 1e-3), workers, monitor);
+    if (!factors)
+        return std::nullopt;
+    log_rays(settings.verbosity, mesh.patches().size(), factors->rays);
+    log_line(settings.verbosity, Verbosity::normal,
+             counted(exact.clear_pairs(), "pair", "pairs") + " by contour integration, " +
+                 grouped(exact.other_pairs()) + " by rays");
+    const MatrixQuality quality = assess_matrix(factors->matrix, mesh, factors->lost);
+    return Factors{std::move(factors->matrix), quality};
 }
 
 /// Finds the factors by rays; nothing where the user interrupted.
@@ -98,26 +117,17 @@ std::optional<Factors> by_rays(const FormFactorSettings& settings, const Mesh& m
     if (monitor.interrupted)
         return std::nullopt;
     log_rays(settings.verbosity, mesh.patches().size(), traced);
-    const auto assessed = [&](SparseMatrix matrix) {
-        const MatrixQuality quality = assess_matrix(matrix, mesh, samples.lost());
-        return Factors{std::move(matrix), quality};
-    };
-    if (own_options<FactorOptions>(settings.options).kind == FactorKind::rays)
-        return assessed(samples.matrix());
-    const ExactFormFactors exact(mesh, workers, monitor);
-    if (monitor.interrupted)
-        return std::nullopt;
-    log_line(settings.verbosity, Verbosity::normal,
-             counted(exact.exact_pairs(), "pair", "pairs") + " by contour integration, " +
-                 grouped(exact.sampled_pairs()) + " by rays");
-    return assessed(exact.matrix(samples));
+    SparseMatrix matrix = samples.matrix();
+    const MatrixQuality quality = assess_matrix(matrix, mesh, samples.lost());
+    return Factors{std::move(matrix), quality};
 }
 
 } // namespace
 
 int formfactors(const FormFactorSettings& settings) {
     const RunFiles files = check_files(settings.outputs, settings.scene.path);
-    const bool by_cubes = own_options<FactorOptions>(settings.options).kind == FactorKind::hemicube;
+    const FactorKind kind = own_options<FactorOptions>(settings.options).kind;
+    const bool by_cubes = kind == FactorKind::hemicube, is_exact = kind == FactorKind::exact;
     const OptionUse rays{"--rays", !by_cubes, "factors by rays"};
     warn_of_unused(settings.given, {&rays, 1}, settings.verbosity);
     Monitor monitor;
@@ -131,8 +141,8 @@ int formfactors(const FormFactorSettings& settings) {
     guard.watch(monitor.interrupted.own().wished);
     const Workers workers(settings.options.threads);
     std::optional<Stage> stage(std::in_place, "finding factors", settings.verbosity);
-    const auto factors = by_cubes ? by_hemicubes(settings, mesh, bvh, workers, monitor)
-                                  : by_rays(settings, mesh, bvh, workers, monitor);
+    const auto find = by_cubes ? by_hemicubes : is_exact ? by_integrals : by_rays;
+    const auto factors = find(settings, mesh, bvh, workers, monitor);
     if (!factors) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();

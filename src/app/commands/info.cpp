@@ -1,7 +1,6 @@
 // hemilux info: what was read, what is doubtful in it, and what it does not need.
 
 #include "app/commands/commands.h"
-#include "app/division/needed_division.h"
 #include "app/loading/lights.h"
 #include "app/loading/load.h"
 #include "app/loading/sides.h"
@@ -11,9 +10,9 @@
 #include "app/terminal/print.h"
 #include "app/terminal/stage.h"
 #include "app/terminal/wrap.h"
-#include "io/files/text_words.h"
 #include "io/results/scene_info_json.h"
 #include "radiosity/answers/asked/text.h"
+#include "radiosity/answers/division/needed_division.h"
 #include "radiosity/engine/needs/find_needs.h"
 
 #include <cmath>
@@ -74,7 +73,7 @@ int info(const InfoSettings& settings) {
             turn_faces(scene, *report.sides);
         const Mesh mesh = divide_scene(std::move(scene), asked);
         report.patches = mesh.patches().size();
-        const MadeTracer made = make_tracer(mesh, needs_tree(mesh));
+        const MadeTracer made = make_tracer(mesh);
         if (const std::string slow = crowd_text(made.crowd, mesh); !slow.empty()) {
             log_line(settings.verbosity, Verbosity::normal, "warning: " + slow);
             report.warnings.push_back(slow);

@@ -2,8 +2,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/solve_end.h"
-#include "app/division/auto_division.h"
-#include "app/division/default_division.h"
+#include "app/commands/watched_run.h"
 #include "app/division/whole_error.h"
 #include "app/gathering/gathered_light.h"
 #include "app/gathering/lightmap_layout.h"
@@ -15,21 +14,15 @@
 #include "app/memory/memory.h"
 #include "app/outputs/lit_preview.h"
 #include "app/outputs/preview.h"
-#include "app/outputs/step_pictures.h"
-#include "app/outputs/useful_picture.h"
 #include "app/rendering/view.h"
-#include "app/report/half_light.h"
 #include "app/running/checkpointing.h"
 #include "app/running/run_files.h"
-#include "app/running/run_notes.h"
+#include "app/running/run_target.h"
 #include "app/running/signals.h"
-#include "app/running/step_size.h"
-#include "app/running/target_weights.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/method_options.h"
 #include "app/terminal/log.h"
 #include "app/terminal/program_watcher.h"
-#include "app/terminal/progress.h"
 #include "app/terminal/stage.h"
 #include "app/terminal/summary.h"
 #include "app/terminal/unused_options.h"
@@ -38,15 +31,14 @@
 #include "parallel/workers.h"
 #include "radiosity/answers/asked/text.h"
 #include "radiosity/answers/charts/charts.h"
+#include "radiosity/answers/division/division.h"
 #include "radiosity/answers/gathering/light_of_patches.h"
-#include "radiosity/engine/emitters/lit_by_points.h"
-#include "radiosity/engine/needs/find_needs.h"
-#include "radiosity/engine/solving/left_out.h"
+#include "radiosity/answers/run/run_findings.h"
+#include "radiosity/answers/run/step_size.h"
 #include "radiosity/engine/solving/shared_stop.h"
 
 #include <algorithm>
-#include <bit>
-#include <functional>
+#include <memory>
 #include <span>
 
 namespace hemilux {
@@ -58,44 +50,36 @@ struct Loaded {
     SolveSettings settings; ///< options with the camera of the scene, where none was given
     std::optional<Checkpoint> resumed;
     std::vector<NamedPoint> points;          ///< points of --points
-    std::vector<TargetPoints> target_points; ///< points of --for
+    std::vector<PointsOfFile> target_points; ///< points of --for
     PatchTable reference;                    ///< table of --reference
     LoadedMesh scene;
     FileLightmap file_lightmap; ///< of `bake`
 };
 
-/// What a solver refers to; it stays where it is while one lives.
-struct Problem {
+/// A run, from what it reads to its outputs.
+struct Task {
     Loaded loaded;
     Monitor& monitor; ///< the caller's
-    Prepared prepared = {};
-    std::vector<double> target = {}; ///< SolverInput::target
-    SolveOptions options = {};       ///< options with the rays of a step and the end of the run
+    RunChoices choices = {};
+    std::shared_ptr<const Problem> problem = nullptr; ///< with its patches as they are divided
+    double seconds_tree = 0;
 
     [[nodiscard]] const SolveSettings& settings() const { return loaded.settings; }
-    [[nodiscard]] const Mesh& mesh() const { return loaded.scene.mesh; }
-    [[nodiscard]] const Tracer& tracer() const { return *prepared.made.tracer; }
-    [[nodiscard]] SolverInput input() const {
-        return {mesh(), tracer(), options, monitor, prepared.needs, target};
-    }
+    [[nodiscard]] const Mesh& mesh() const { return *problem->mesh; }
+    [[nodiscard]] const Tracer& tracer() const { return *problem->tracer; }
 };
 
 /// A run whose steps are done.
-struct Run {
-    std::unique_ptr<Solver> solver;
-    std::vector<StepRow> rows;
-    std::vector<LightOfStep> lights; ///< light after steps 1, 2, 4 and so on, for a page
-    double unit = 1;                 ///< unit of these lights [W/m2]
-    RunNotes notes;
+struct Done {
+    Run run;
+    StopRule stop;
     std::optional<InputError> fault = {}; ///< fault in a step; the steps before it are written
-    bool completed = false;
-    double seconds = 0;                ///< time of the solver
-    WriteReport written = {};          ///< what was written after steps
-    std::optional<Camera> camera = {}; ///< view of pictures after steps, which the last one shares
+    KeptSteps kept = {};
+    std::optional<Camera> camera = {}; ///< view of pictures
 };
 
-InputError as_input_error(const SolveError& error, const Problem& problem) {
-    return as_input_error(error, problem.settings().scene.path, problem.loaded.scene.face_lines);
+InputError as_input_error(const SolveError& error, const Task& task) {
+    return as_input_error(error, task.settings().scene.path, task.loaded.scene.face_lines);
 }
 
 bool has_pictures(const SolveSettings& settings) {
@@ -142,7 +126,7 @@ Loaded load(SolveSettings settings) {
     std::vector<NamedPoint> points;
     if (!settings.points.path.empty())
         points = read_points(settings.points.path);
-    std::vector<TargetPoints> target_points = points_of_target(settings.target);
+    std::vector<PointsOfFile> target_points = points_of_target(settings.target);
     PatchTable reference;
     if (!settings.reference.empty())
         reference = read_patch_table(settings.reference);
@@ -176,171 +160,109 @@ Loaded load(SolveSettings settings) {
             std::move(file_lightmap)};
 }
 
-/// Finds what belongs to the patches as they are then.
-std::vector<double> target_of(const Problem& problem) {
-    return target_weights(problem.settings(), problem.loaded.target_points, problem.mesh(),
-                          problem.tracer());
-}
-
 /// Builds what solving needs besides the patches. From then on a signal ends the run with what
 /// there is, which is watched before a stage is told of.
-Problem build(Loaded loaded, Monitor& monitor, InterruptGuard& guard) {
-    Problem problem{.loaded = std::move(loaded), .monitor = monitor};
-    const SolveSettings& settings = problem.settings();
-    problem.prepared = prepare(problem.loaded.scene, settings.options, settings.verbosity);
-    problem.options =
-        with_memory(settings.options, settings.scene, problem.loaded.scene.need.all());
-    guard.watch(monitor.interrupted.own().wished);
-    log_line(settings.verbosity, Verbosity::verbose,
-             tracer_text(problem.prepared.made.tree, problem.prepared.seconds));
-    problem.target = target_of(problem);
-    return problem;
-}
-
-/// Begins a solver for the patches as they are then.
-std::unique_ptr<Solver> begin(Problem& problem) {
-    const SolveSettings& settings = problem.settings();
-    const Method& method = *settings.method;
-    const std::size_t patches = problem.mesh().patches().size();
-    problem.options.rays =
-        rays_of_step(settings.options.rays, settings.stop.seconds, method, patches);
-    problem.options.stop = stop_rule(settings, patches);
-    return make_solver(method, problem.input(), settings.plain);
+Problem build(Task& task, InterruptGuard& guard) {
+    const SolveSettings& settings = task.settings();
+    auto [problem, seconds] = prepare(task.loaded.scene, settings.options, settings.verbosity);
+    task.seconds_tree = seconds;
+    task.choices = run_choices(settings, task.loaded.scene.need.all());
+    guard.watch(task.monitor.interrupted.own().wished);
+    log_line(settings.verbosity, Verbosity::verbose, tracer_text(problem.tree, seconds));
+    aim_at(problem, settings, task.loaded.target_points);
+    return std::move(problem);
 }
 
 /// Divides the patches where --divide auto asks for it.
-Divided divide(Problem& problem, Statistics& statistics) {
-    const Stage stage("dividing patches", problem.settings().verbosity);
-    SolverInput input = problem.input();
-    const auto mesh_changed = [&] {
-        if (!problem.settings().options.keep_all)
-            problem.prepared.needs = find_needs(problem.mesh());
-        problem.target = target_of(problem);
-        input.target = problem.target;
-    };
-    return divide_as_asked(
-        problem.settings(), problem.loaded.scene.mesh, input, [&] { return begin(problem); },
-        mesh_changed, statistics);
+Divided divide(const Task& task, Problem problem) {
+    const SolveSettings& settings = task.settings();
+    if (!settings.divide_auto)
+        return {.problem = std::make_shared<const Problem>(std::move(problem))};
+    const Stage stage("dividing patches", settings.verbosity);
+    ProgramWatcher watcher(settings.verbosity);
+    return divide(std::move(problem), task.choices, division_choices(settings), task.monitor,
+                  watcher);
 }
 
 /// Takes the reference, which is of the patches as they are divided.
-std::optional<Reference> take_reference(Problem& problem) {
-    const std::string& path = problem.settings().reference;
-    if (path.empty() || problem.monitor.interrupted)
+std::optional<Reference> take_reference(Task& task) {
+    const std::string& path = task.settings().reference;
+    if (path.empty() || task.monitor.interrupted)
         return std::nullopt;
-    return reference_of(std::move(problem.loaded.reference), path, problem.mesh(),
-                        detail_mask(problem.mesh(), problem.settings().detail));
+    return reference_of(std::move(task.loaded.reference), path, task.mesh(),
+                        detail_mask(task.mesh(), task.settings().detail));
 }
 
-LitScene lit_scene(const Problem& problem, const Solution& solution) {
-    return {problem.mesh(), problem.tracer(), solution.radiosity,
-            problem.settings().options.threads};
+LitScene lit_scene(const Task& task, const Solution& solution) {
+    return {task.mesh(), task.tracer(), solution.radiosity, task.settings().options.threads};
+}
+
+/// Lets a run go on from the checkpoint.
+void resume(Run& run, const Checkpoint& checkpoint, const SolveSettings& settings) {
+    run.before = resume(checkpoint, settings, run.mesh(), *run.solver);
+    run.seconds += checkpoint.seconds;
+    for (const StepRow& row : checkpoint.rows)
+        run.steps.push_back(row.record);
 }
 
 /// Takes the steps. Goes on with the run by which the patches were divided, where there is one.
-Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference>& reference,
-               double seconds_divide, Preview& preview) {
-    const SolveSettings& settings = problem.settings();
-    const std::optional<Checkpoint>& resumed = problem.loaded.resumed;
-    const Mesh& mesh = problem.mesh();
-    Monitor& monitor = problem.monitor;
-    StopRule stop = stop_rule(settings, mesh.patches().size(), divided.sampling);
-    UsefulPicture picture(settings, mesh, problem.tracer());
-    std::function<bool(const Solution&)> useful;
-    if (settings.useful)
-        useful = [&](const Solution& image) {
-            const double similarity = picture.similarity(image);
-            log_line(settings.verbosity, Verbosity::verbose,
-                     formatted("picture: similarity of %.4f to one without noise", similarity));
-            return similarity >= UsefulPicture::useful;
-        };
-    Progress progress(monitor, share_of(stop, *settings.method),
-                      settings.verbosity != Verbosity::quiet && stderr_is_terminal());
-    const Stopwatch solving;
-    const bool is_begun = divided.begun && !resumed;
-    Run done{.solver = is_begun ? std::move(divided.begun) : begin(problem),
-             .rows = {},
-             .lights = {},
-             .notes = RunNotes(stop, settings.work().estimates_error)};
-    log_rays_of_step(settings.verbosity, settings.options.rays, problem.options.rays);
-    Before before = divided.before();
-    before.seconds += seconds_divide; // a time limit is of both
+Done take_steps(const Task& task, Divided& divided, const std::optional<Reference>& reference,
+                Preview& preview) {
+    const SolveSettings& settings = task.settings();
+    const std::optional<Checkpoint>& resumed = task.loaded.resumed;
+    RunChoices choices = task.choices;
+    if (divided.sampling)
+        choices.sampling = divided.sampling;
+    const StopRule stop = stop_rule(choices, task.mesh().patches().size());
+    WatchedRun watched(settings, *task.problem, stop, task.monitor, reference, preview);
+    const bool is_begun = divided.run && !resumed;
+    Done done{.run = is_begun ? *std::move(divided.run)
+                              : begin(task.problem, task.choices, task.monitor),
+              .stop = stop};
+    if (const auto smaller = smaller_step_finding(settings.options.rays, done.run.options->rays))
+        watched.take(*smaller);
+    done.run.add_time_before(divided.work.seconds); // a time limit is of both
     if (resumed) {
-        before = resume(*resumed, settings, mesh, *done.solver);
-        done.rows = resumed->rows;
-    }
-    Checkpointer checkpointer(settings, mesh, *done.solver);
-    StepPictures step_pictures(settings, mesh, problem.tracer(), monitor.interrupted.own().wished);
-    const auto add_row = [&](const StepRecord& record) {
-        done.notes.step_done(record);
-        done.rows.push_back({std::string(settings.method->name), 0, record, std::nullopt});
-        progress.step_done(record);
-    };
-    const auto keep_light = [&](const Solution& solution) {
-        if (settings.report.empty() || !std::has_single_bit(solution.steps))
-            return;
-        if (done.lights.empty())
-            done.unit = mean_light(mesh, solution.radiosity);
-        done.lights.push_back({solution.steps, halves_of(solution.radiosity, done.unit)});
-    };
-    const auto show_last_row = [&](const Solution& solution) {
-        if (reference)
-            done.rows.back().error = reference->error(mesh, solution.radiosity);
-        step_pictures.write(solution.radiosity, solution.steps);
-        log_line(settings.verbosity, Verbosity::verbose, step_text(done.rows.back()));
-        preview.show(lit_scene(problem, solution), solution);
-    };
-    const auto after_step = [&](const StepRecord& record, const Solution& solution) {
-        add_row(record);
-        keep_light(solution);
-        show_last_row(solution);
-        checkpointer.step_done(done.rows, record.seconds);
-    };
-    if (is_begun && !divided.steps.empty()) {
-        for (StepRecord record : divided.steps) {
-            record.seconds += seconds_divide;
-            add_row(record);
-        }
-        show_last_row(done.solver->solution());
-    }
+        resume(done.run, *resumed, settings);
+        watched.watch_resumed(done.run, resumed->rows);
+    } else
+        watched.watch(done.run);
     try {
-        done.completed = run(*done.solver, problem.input(), stop, after_step, before, useful);
+        go_on(done.run, stop, watched);
     } catch (const SolveError& error) {
-        if (done.solver->solution().steps == 0)
+        if (done.run.solution().steps == 0)
             throw;
-        done.fault = as_input_error(error, problem);
+        done.fault = as_input_error(error, task);
     }
-    done.seconds = solving.seconds() + (resumed ? resumed->seconds : divided.before().seconds);
-    progress.close();
-    checkpointer.finish(done.rows, done.seconds);
-    done.written = step_pictures.report();
-    done.written.add(checkpointer.report());
-    done.camera = step_pictures.camera();
+    done.kept = watched.finish();
+    done.camera = done.kept.camera;
     return done;
 }
 
-/// Adds what is known of a solution, and how far off it is.
-void add_errors(Statistics& statistics, const Problem& problem, const Divided& divided,
-                const Solution& solution, double seconds_solver) {
-    const SolveSettings& settings = problem.settings();
+/// Puts together what is known of a solution, and finds how far off it is.
+Statistics figures_of(const Task& task, const Divided& divided, const Run& run,
+                      const Solution& solution) {
+    const SolveSettings& settings = task.settings();
     const Stage stage("finding the error", settings.verbosity);
-    fill(statistics, settings, problem.mesh(), solution, seconds_solver);
+    StageFigures stages{.seconds_read = task.loaded.scene.seconds_read,
+                        .seconds_tree = task.seconds_tree,
+                        .seconds_solver = run.seconds,
+                        .division = divided.work,
+                        .error = error_of_sampling(task.mesh(), solution)};
     // Without an estimate of sampling, the error of the division would be taken for the whole.
-    if (!settings.work().estimates_error || !shows_statistics(settings))
-        statistics.error_sampling = statistics.estimated_error;
-    else
-        add_division_error(statistics, settings, problem.mesh(), problem.tracer(), solution,
-                           divided, problem.monitor.interrupted);
-    if (!settings.plain) // which leaves out nothing
-        statistics.left_out = left_out(problem.prepared.needs, settings.work(), solution);
-    statistics.bytes_peak = peak_memory_bytes();
-    if (settings.ranks->are_several())
-        statistics.ranks =
-            settings.ranks->of_each(RankFigures{settings.ranks->work(), statistics.bytes_peak});
+    stages.is_whole = settings.work().estimates_error && shows_statistics(settings) &&
+                      finds_whole_error(settings, solution);
+    if (stages.is_whole)
+        find_error_of_division(stages.error, divided, solution,
+                               {.is_asked_for = settings.divide_auto,
+                                .seed = settings.options.seed,
+                                .threads = settings.options.threads},
+                               task.monitor.interrupted);
+    return statistics_of(settings, *task.problem, solution, stages);
 }
 
 /// Returns where surfaces lie in the lightmaps that are gathered.
-std::vector<NamedLayout> lightmap_layouts(const Problem& problem) {
+std::vector<NamedLayout> lightmap_layouts(const Task& problem) {
     const SolveSettings& settings = problem.settings();
     std::vector<NamedLayout> layouts;
     if (settings.file_bake.asked || !gathers_lightmap(settings)) {
@@ -376,7 +298,7 @@ struct GivenLight {
 
 /// Gathers light where outputs show that; chooses the camera of pictures. Then finds what each lamp
 /// brings of all this, where it is asked for.
-GivenLight give_light(const Problem& problem, Run& done, const Solution& solution,
+GivenLight give_light(const Task& problem, Done& done, const Solution& solution,
                       Statistics& statistics, Preview& preview) {
     const SolveSettings& settings = problem.settings();
     // Without a step, a file of the scene's own has the light of its lamps; values are not known.
@@ -410,33 +332,35 @@ GivenLight give_light(const Problem& problem, Run& done, const Solution& solutio
         log_error_of_points(settings, given.gathered);
     }
     given.lamps =
-        find_lamp_light(settings, {lit, *done.solver, solution, given.gathered, wanted, asked},
+        find_lamp_light(settings, {lit, *done.run.solver, solution, given.gathered, wanted, asked},
                         problem.monitor, statistics);
     return given;
 }
 
 /// Writes the outputs; returns the exit code.
-int write(const Problem& problem, const Run& done, const Solution& solution, Statistics& statistics,
+int write(const Task& task, const Done& done, const Solution& solution, Statistics& statistics,
           const GivenLight& given, const std::optional<Reference>& reference,
           const Stopwatch& started) {
-    const Loaded& loaded = problem.loaded;
+    const Loaded& loaded = task.loaded;
     SolveSettings settings = loaded.settings;
     if (!settings.ranks->is_first()) // whose result is the first one's
         return exit_done;
-    const OnThisRank works_alone(problem.monitor.interrupted);
-    const bool interrupted = !done.completed && !done.fault;
+    const OnThisRank works_alone(task.monitor.interrupted);
+    const bool interrupted = !done.run.completed && !done.fault;
     settings.view.camera = done.camera;
     std::optional<Stage> stage(std::in_place, "writing", settings.verbosity);
-    std::span<const LightOfStep> lights = done.lights;
+    std::span<const LightOfStep> lights = done.kept.lights;
     if (!lights.empty() && lights.back().step == solution.steps) // which is shown as the last one
         lights = lights.first(lights.size() - 1);
+    const RunEnd end{done.stop, settings.work().estimates_error, statistics.error_sampling,
+                     interrupted};
     const int code =
         finish(settings,
-               {problem.mesh(), problem.tracer(), solution, settings.options, statistics, done.rows,
-                lights, done.unit, loaded.points, given.gathered, given.lamps, loaded.file_lightmap,
-                loaded.scene.warnings, problem.monitor},
-               done.written, reference, done.notes, interrupted, started,
-               loaded.resumed ? loaded.resumed->seconds : 0);
+               {task.mesh(), task.tracer(), solution, settings.options, statistics, done.kept.rows,
+                lights, done.kept.unit, loaded.points, given.gathered, given.lamps,
+                loaded.file_lightmap, loaded.scene.warnings, task.monitor},
+               done.kept.written, reference, run_findings(done.run.steps, end), interrupted,
+               started, loaded.resumed ? loaded.resumed->seconds : 0);
     stage.reset();
     if (interrupted && !settings.ranks->are_several())
         end_at_once(code);
@@ -444,21 +368,19 @@ int write(const Problem& problem, const Run& done, const Solution& solution, Sta
         return code;
     log_line(settings.verbosity, Verbosity::quiet,
              std::string("hemilux: ") + done.fault->what() + "\nthe outputs hold " +
-                 counted(done.solver->solution().steps, "step", "steps") + " before that");
+                 counted(done.run.solution().steps, "step", "steps") + " before that");
     return exit_input;
 }
 
 /// Solves the problem and writes the outputs; returns the exit code.
-int solve(Problem& problem, const Stopwatch& started) {
-    Statistics statistics;
-    statistics.seconds_read = problem.loaded.scene.seconds_read;
-    statistics.seconds_bvh = problem.prepared.seconds;
-    Divided divided = divide(problem, statistics);
-    const std::optional<Reference> reference = take_reference(problem);
-    Preview preview(problem.settings(), problem.monitor.interrupted.own().wished);
-    Run done = take_steps(problem, divided, reference, statistics.seconds_divide, preview);
+int solve(Task& task, Problem undivided, const Stopwatch& started) {
+    Divided divided = divide(task, std::move(undivided));
+    task.problem = divided.problem;
+    const std::optional<Reference> reference = take_reference(task);
+    Preview preview(task.settings(), task.monitor.interrupted.own().wished);
+    Done done = take_steps(task, divided, reference, preview);
     // Where a signal or the time left no step, the light by which patches were divided is used.
-    const Solution* solution = &done.solver->solution();
+    const Solution* solution = &done.run.solution();
     if (solution->steps == 0 && divided.rough.steps > 0)
         solution = &divided.rough;
     std::optional<Solution> linear; // with slopes
@@ -467,23 +389,23 @@ int solve(Problem& problem, const Stopwatch& started) {
         linear->slope = divided.slope;
         solution = &*linear;
     }
-    add_errors(statistics, problem, divided, *solution, done.seconds);
+    Statistics statistics = figures_of(task, divided, done.run, *solution);
     std::optional<Solution> of_target; // with the light of its patches gathered
-    if (gathers_target(problem.settings()) && solution->steps > 0 && done.completed &&
-        problem.settings().ranks->is_first()) {
-        const OnThisRank works_alone(problem.monitor.interrupted);
-        const Stage stage("gathering the light of the target", problem.settings().verbosity);
-        std::optional<Answer<Solution>> gathered = gather_patches(
-            lit_scene(problem, *solution), *solution,
-            asked_of_target(problem.settings(), *solution, statistics), problem.monitor);
+    if (gathers_target(task.settings()) && solution->steps > 0 && done.run.completed &&
+        task.settings().ranks->is_first()) {
+        const OnThisRank works_alone(task.monitor.interrupted);
+        const Stage stage("gathering the light of the target", task.settings().verbosity);
+        std::optional<Answer<Solution>> gathered =
+            gather_patches(lit_scene(task, *solution), *solution,
+                           asked_of_target(task.settings(), *solution, statistics), task.monitor);
         if (gathered) {
             add_target(statistics, *gathered);
             of_target = std::move(gathered->value);
             solution = &*of_target;
         }
     }
-    const GivenLight given = give_light(problem, done, *solution, statistics, preview);
-    return write(problem, done, *solution, statistics, given, reference, started);
+    const GivenLight given = give_light(task, done, *solution, statistics, preview);
+    return write(task, done, *solution, statistics, given, reference, started);
 }
 
 } // namespace
@@ -492,12 +414,13 @@ int solve(const SolveSettings& settings) {
     const Stopwatch started;
     Monitor monitor;
     InterruptGuard guard;
-    Problem problem = build(load(settings), monitor, guard);
+    Task task{load(settings), monitor};
+    Problem problem = build(task, guard);
     const SharedStop shared_stop(monitor.interrupted, *settings.ranks);
     try {
-        return solve(problem, started);
+        return solve(task, std::move(problem), started);
     } catch (const SolveError& error) {
-        throw as_input_error(error, problem);
+        throw as_input_error(error, task);
     }
 }
 

@@ -2,18 +2,18 @@
 
 #include "app/division/whole_error.h"
 #include "app/gathering/lit_file_output.h"
-#include "app/loading/sides.h"
-#include "app/running/unknown_groups.h"
 #include "app/terminal/log.h"
+#include "app/terminal/program_watcher.h"
 #include "app/terminal/summary.h"
 #include "io/files/printable.h"
 #include "parallel/workers.h"
 #include "radiosity/answers/asked/text.h"
+#include "radiosity/answers/run/lost_light.h"
+#include "radiosity/answers/run/unknown_groups.h"
+#include "radiosity/engine/solving/left_out.h"
 #include "radiosity/engine/solving/transport_figures.h"
-#include "radiosity/light/sides/light_paths.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "radiosity/paper/scene/mesh.h"
-#include "radiosity/paper/solution/error_spread.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,15 +24,6 @@ namespace hemilux {
 
 namespace {
 
-std::string lost_light_of(const SolveSettings& settings, const Results& results) {
-    if (results.solution.steps == 0)
-        return "";
-    LightShares light = find_light_shares(results.mesh, results.tracer);
-    if (results.statistics.emitted_far == 0)
-        light = as_in_ledger(light, results.solution.energy);
-    return lost_light_text(results.mesh, results.solution.radiosity, light, settings.scene.sides);
-}
-
 /// Returns the seconds of the stages that have a name, before anything is written.
 double seconds_of_stages(const Statistics& s) {
     const auto known = [](double seconds) { return std::isfinite(seconds) ? seconds : 0; };
@@ -41,17 +32,16 @@ double seconds_of_stages(const Statistics& s) {
            s.seconds_learn + s.seconds_gather + s.seconds_layers;
 }
 
-/// Returns what a user must know of a run that has ended.
-std::vector<std::string> warnings_of(const SolveSettings& settings, const Results& results,
-                                     const RunNotes& notes, bool interrupted) {
-    std::vector<std::string> warnings = notes.texts(results.statistics.error_sampling, interrupted);
+/// Returns what a user must know of a run that has ended, of which `findings` is told already.
+Findings findings_of(const SolveSettings& settings, const Results& results, Findings findings,
+                     bool interrupted) {
     if (!interrupted)
-        warnings.push_back(whole_error_note(settings, results.statistics));
+        add(findings, whole_error_note(settings, results.statistics));
     if (!gives_gathered_light(settings))
-        warnings.push_back(unknown_groups_text(results.mesh, results.solution));
-    warnings.push_back(lost_light_of(settings, results));
-    std::erase(warnings, std::string());
-    return warnings;
+        add(findings, unknown_groups_finding(results.mesh, results.solution));
+    add(findings,
+        lost_light_finding(results.mesh, results.tracer, results.solution, settings.scene.sides));
+    return findings;
 }
 
 constexpr const char* no_step_warning =
@@ -79,10 +69,38 @@ void add_powers(Statistics& statistics, const Mesh& mesh, const Solution& soluti
     }
 }
 
+/// Decides which error is that of the run: with --divide auto that of the light as given out, else
+/// that of the patches' means.
+void add_errors(Statistics& statistics, const SolveSettings& settings, const Solution& solution,
+                const StageFigures& stages) {
+    const WholeError& error = stages.error;
+    const bool is_whole = stages.is_whole && settings.divide_auto;
+    statistics.estimated_error = is_whole ? error.error() : error.sampling;
+    statistics.estimated_error_uncertainty =
+        is_whole ? error.uncertainty() : error.sampling_uncertainty;
+    statistics.error_sampling = error.sampling;
+    statistics.error_division = error.division.error;
+    statistics.error_division_uncertainty = error.division.uncertainty;
+    statistics.target = settings.target.names();
+    if (!statistics.target.empty())
+        statistics.estimated_error_of = ErrorOf::target;
+    if (is_whole && solution.weight.empty())
+        statistics.estimated_error_of = ErrorOf::surfaces;
+}
+
 } // namespace
 
-void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
-          const Solution& solution, double seconds_solver) {
+Statistics statistics_of(const SolveSettings& settings, const Problem& problem,
+                         const Solution& solution, const StageFigures& stages) {
+    const Mesh& mesh = *problem.mesh;
+    Statistics statistics;
+    statistics.seconds_read = stages.seconds_read;
+    statistics.seconds_bvh = stages.seconds_tree;
+    statistics.seconds_divide = stages.division.seconds;
+    statistics.rays_divide = stages.division.rays;
+    statistics.rays_division_error = stages.division.rays_error + stages.error.rays;
+    if (settings.divide_auto || stages.error.seconds > 0)
+        statistics.seconds_division_error = stages.division.seconds_error + stages.error.seconds;
     statistics.patches = mesh.patches().size();
     statistics.faces = mesh.scene().faces;
     statistics.materials = mesh.scene().materials.size();
@@ -93,30 +111,33 @@ void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mes
     statistics.rays_energy = solution.rays_energy;
     statistics.rays_density = solution.rays_density;
     statistics.seconds_density = solution.seconds_density;
-    statistics.seconds_solve = std::max(0.0, seconds_solver - solution.seconds_density);
+    statistics.seconds_solve = std::max(0.0, stages.seconds_solver - solution.seconds_density);
     statistics.rays_per_second =
-        static_cast<double>(solution.rays_energy + solution.rays_density) / seconds_solver;
+        static_cast<double>(solution.rays_energy + solution.rays_density) / stages.seconds_solver;
     statistics.bytes_density = solution.bytes_density;
     statistics.bytes_transport = solution.figures.value(transport_figures::bytes);
     statistics.links = solution.figures.value("links"); // of `hierarchical`
     if (solution.bytes_density > 0)
         statistics.bytes_density_paper =
             statistics.patches * Hemisphere::cells_up_to(settings.options.depth);
-    statistics.estimated_error = estimated_error(mesh, solution);
-    statistics.estimated_error_uncertainty =
-        statistics.estimated_error * error_spread(mesh, solution).uncertainty();
-    statistics.target = settings.target.names();
-    if (!statistics.target.empty())
-        statistics.estimated_error_of = ErrorOf::target;
+    add_errors(statistics, settings, solution, stages);
     statistics.estimated_error_elsewhere = estimated_error_elsewhere(mesh, solution);
     statistics.energy = solution.energy;
     add_powers(statistics, mesh, solution);
+    if (!settings.plain) // which leaves out nothing
+        statistics.left_out = left_out(problem.needs, settings.work(), solution);
+    statistics.bytes_peak = peak_memory_bytes();
+    if (settings.ranks->are_several())
+        statistics.ranks =
+            settings.ranks->of_each(RankFigures{settings.ranks->work(), statistics.bytes_peak});
+    return statistics;
 }
 
 int finish(const SolveSettings& settings, Results results, const WriteReport& of_steps,
-           const std::optional<Reference>& reference, const RunNotes& notes, bool interrupted,
+           const std::optional<Reference>& reference, const Findings& of_run, bool interrupted,
            const Stopwatch& started, double seconds_before) {
-    const std::vector<std::string> warnings = warnings_of(settings, results, notes, interrupted);
+    const std::vector<std::string> warnings =
+        texts_of(findings_of(settings, results, of_run, interrupted));
     const bool no_step = results.solution.steps == 0 && !interrupted;
     std::vector<std::string> all(results.warnings.begin(), results.warnings.end());
     all.insert(all.end(), warnings.begin(), warnings.end());

@@ -3,24 +3,32 @@
 
 #include "app/loading/reference.h"
 #include "app/outputs/results.h"
-#include "app/running/run_notes.h"
 #include "app/settings/settings.h"
 #include "parallel/stopwatch.h"
+#include "radiosity/answers/division/whole_error.h"
 
 #include <optional>
 
 namespace hemilux {
 
-/// Fills in what is known of a solution. `seconds_solver` is the time of the solver [s], its
-/// density rays included.
-void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
-          const Solution& solution, double seconds_solver);
+/// What the stages of a run returned.
+struct StageFigures {
+    double seconds_read = 0, seconds_tree = 0;
+    double seconds_solver = 0; ///< density rays included
+    DivisionWork division = {};
+    WholeError error;
+    bool is_whole = false; ///< the error of the division was to be found out
+};
+/// Puts together what is known of a solution, before light is gathered from it.
+[[nodiscard]] Statistics statistics_of(const SolveSettings& settings, const Problem& problem,
+                                       const Solution& solution, const StageFigures& stages);
 
 /// Writes the outputs and logs the last lines; returns the exit code. `of_steps` is what was
-/// written after steps. `seconds_before` is the time [s] of the run that this one continues.
+/// written after steps, `of_run` what there is to say of these. `seconds_before` is the time [s] of
+/// the run that this one continues.
 [[nodiscard]] int finish(const SolveSettings& settings, Results results,
                          const WriteReport& of_steps, const std::optional<Reference>& reference,
-                         const RunNotes& notes, bool interrupted, const Stopwatch& started,
+                         const Findings& of_run, bool interrupted, const Stopwatch& started,
                          double seconds_before);
 
 } // namespace hemilux

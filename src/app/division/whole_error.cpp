@@ -1,40 +1,37 @@
 #include "app/division/whole_error.h"
 
-#include "geometry/elementary.h"
-#include "parallel/stopwatch.h"
-#include "parallel/workers.h"
+#include "app/settings/outputs.h"
 #include "radiosity/answers/asked/text.h"
-#include "radiosity/light/light_error/division_error.h"
-#include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 namespace hemilux {
 namespace {
 
-/// Rays to find out the error of the division: at most one in so many of all before.
-constexpr std::uint64_t share_of_rays = 2;
+bool writes_mesh(const SolveSettings& settings) {
+    return std::ranges::any_of(settings.outputs, [&](const Output& output) {
+        return output.kind == OutputKind::ply ||
+               (output.kind == OutputKind::glb && !settings.file_bake.asked) ||
+               output.kind == OutputKind::vtu;
+    });
+}
 
-/// The relative error of the division below which errors are not resolved where nothing asks for it
-/// [-].
-constexpr double resolved_on_fixed_patches = .01;
+/// Returns the error of sampling that patches may have where all light is gathered from them:
+/// gathers average over patches, and learn what these lack.
+double sampling_of_gathered(const SolveSettings& settings) {
+    constexpr double most = .05;
+    return std::max(most, whole_error(settings));
+}
 
-/// Enters the errors into the statistics. With --divide auto the estimated error is that of the
-/// light as given out: both errors of patches together.
-void enter(Statistics& statistics, const DivisionError& of_patches, bool divide_auto) {
-    statistics.error_division = of_patches.error;
-    statistics.error_division_uncertainty = of_patches.uncertainty;
-    if (divide_auto) {
-        const double whole = elementary::hypot(statistics.error_sampling, of_patches.error);
-        statistics.estimated_error_uncertainty =
-            elementary::hypot(statistics.error_sampling * statistics.estimated_error_uncertainty,
-                              of_patches.error * of_patches.uncertainty) /
-            whole;
-        statistics.estimated_error = whole;
-    }
+/// Returns RunChoices::sampling.
+std::optional<double> sampling_of(const SolveSettings& settings) {
+    if (settings.divide_auto)
+        return share_of_sampling * whole_error(settings);
+    if (gives_gathered_light(settings) && settings.work().estimates_error &&
+        (settings.stop.error || !settings.useful))
+        return sampling_of_gathered(settings);
+    return {};
 }
 
 } // namespace
@@ -50,11 +47,6 @@ double whole_error(const SolveSettings& settings) {
                                           : settings.stop.error.value_or(usual);
 }
 
-double sampling_of_gathered(const SolveSettings& settings) {
-    constexpr double most = .05;
-    return std::max(most, whole_error(settings));
-}
-
 bool gives_gathered_light(const SolveSettings& settings) {
     const bool is_of_patches =
         !settings.error_map.empty() || !settings.report.empty() ||
@@ -68,62 +60,56 @@ bool gives_gathered_light(const SolveSettings& settings) {
            (pictures || !settings.points.path.empty());
 }
 
-void add_division_error(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
-                        const Tracer& tracer, const Solution& solution, const Divided& divided,
-                        const StopFlag& interrupted) {
-    statistics.error_sampling = statistics.estimated_error;
-    if (!solution.weight.empty() && !settings.divide_auto) // rays are for the target's own patches
-        return;
-    if (!settings.divide_auto && !settings.whole_error)
-        return;
-    std::optional<DivisionError> of_patches;
-    if (solution.steps == divided.steps.size())
-        of_patches = divided.error;
-    if (settings.divide_auto && solution.weight.empty())
-        statistics.estimated_error_of = ErrorOf::surfaces;
-    if (!of_patches && (solution.steps == 0 || interrupted)) {
-        if (settings.divide_auto) // the whole error is not known
-            statistics.estimated_error = statistics.estimated_error_uncertainty =
-                std::numeric_limits<double>::quiet_NaN();
-        return;
-    }
-    const Stopwatch watch;
-    const Workers workers(settings.options.threads);
-    DivisionErrorOptions options{
-        .max_rays = (solution.rays_energy + solution.rays_density + statistics.rays_divide) /
-                    share_of_rays};
-    if (!of_patches) {
-        options.seed = hash_words({settings.options.seed, 1});
-        options.negligible = settings.divide_auto ? 0 : resolved_on_fixed_patches;
-        if (statistics.error_sampling > 2 * options.negligible) // unknown after one step
-            options.negligible = statistics.error_sampling / 2;
-        of_patches = division_error(mesh, tracer, solution, options, workers, interrupted);
-        statistics.rays_division_error += of_patches->rays;
-        const double before = statistics.seconds_division_error;
-        statistics.seconds_division_error = (before > 0 ? before : 0) + watch.seconds();
-    }
-    enter(statistics, *of_patches, settings.divide_auto);
+bool divides_by_default(const SolveSettings& settings, std::size_t patches) {
+    return !settings.divide_given && patches < max_patches_by_default && writes_mesh(settings) &&
+           settings.method == &method_of(Role::standard) && !settings.plain && !settings.useful &&
+           settings.scene.mesh.max_edge == 0 && settings.target.names().empty() &&
+           !settings.stop.steps && !settings.every_step && settings.reference.empty() &&
+           settings.checkpoint.path.empty() && settings.checkpoint.resumed.empty();
 }
 
-std::string whole_error_note(const SolveSettings& settings, const Statistics& statistics) {
+DivisionChoices division_choices(const SolveSettings& settings) {
+    DivisionChoices choices{.error = whole_error(settings), .standard = &method_of(Role::standard)};
+    if (!settings.divide_given)
+        choices.max_patches = max_patches_by_default;
+    return choices;
+}
+
+RunChoices run_choices(const SolveSettings& settings, double bytes_needed) {
+    return {.method = settings.method,
+            .plain = settings.plain,
+            .options = settings.options,
+            .stop = settings.stop,
+            .sampling = sampling_of(settings),
+            .until_useful = settings.useful,
+            .memory = {.limit = settings.scene.memory, .needed = bytes_needed}};
+}
+
+bool finds_whole_error(const SolveSettings& settings, const Solution& solution) {
+    return settings.divide_auto || (settings.whole_error && solution.weight.empty());
+}
+
+std::optional<Finding> whole_error_note(const SolveSettings& settings,
+                                        const Statistics& statistics) {
     const bool is_asked = settings.stop.error || (!settings.stop.steps && !settings.stop.seconds);
     const double asked = whole_error(settings);
     if (!is_asked)
-        return "";
-    if (statistics.estimated_error_of == ErrorOf::gathered)
-        return statistics.error_bound <= asked || std::isnan(statistics.estimated_error)
-                   ? ""
-                   : "the run ended before the error of gathered light was surely below " +
-                         percent(asked) + ", for which more rays are needed (--max-rays, --time)";
-    if (!settings.divide_auto || statistics.estimated_error <= asked ||
-        !std::isfinite(statistics.error_division))
-        return "";
-    const std::string options = settings.divide_given ? "--memory, --time" : "--divide auto";
-    const bool of_division = statistics.error_division > statistics.error_sampling;
-    return "the run ended before the whole error of " + percent(asked) +
-           " was reached; most of what is left is of " +
-           (of_division ? "the division, which more patches (" + options + ") make less"
-                        : "sampling, which more rays (--max-rays, --time) make less");
+        return {};
+    if (statistics.estimated_error_of == ErrorOf::gathered) {
+        if (statistics.error_bound <= asked || std::isnan(statistics.estimated_error))
+            return {};
+        return Finding{Finding::Kind::warning,
+                       "the run ended before the error of gathered light was surely below " +
+                           percent(asked) +
+                           ", for which more rays are needed (--max-rays, --time)"};
+    }
+    if (!settings.divide_auto || statistics.estimated_error <= asked)
+        return {};
+    return whole_error_finding(asked,
+                               {.sampling = statistics.error_sampling,
+                                .sampling_uncertainty = 0,
+                                .division = {.error = statistics.error_division}},
+                               settings.divide_given ? "--memory, --time" : "--divide auto");
 }
 
 } // namespace hemilux

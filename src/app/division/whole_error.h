@@ -1,11 +1,12 @@
 #pragma once
-// The whole error of the light as given out: which error it is, and how large.
+// Which error a run is asked for, and what the settings say of how it gets there.
 
-#include "app/division/auto_division.h"
 #include "app/settings/settings.h"
 #include "io/results/statistics.h"
+#include "radiosity/answers/division/whole_error.h"
 
-#include <string>
+#include <cstddef>
+#include <optional>
 
 namespace hemilux {
 
@@ -18,19 +19,24 @@ namespace hemilux {
 /// Returns whether all light that is given out is gathered at points or for pictures, none as
 /// patches have it. The whole error is then that of gathered light.
 [[nodiscard]] bool gives_gathered_light(const SolveSettings& settings);
-/// Returns the error of sampling [-] that patches may have where all light is gathered from them:
-/// gathers average over patches, and learn what these lack.
-[[nodiscard]] double sampling_of_gathered(const SolveSettings& settings);
 
-/// Adds the error of the division to the statistics of a solution where --divide auto or
-/// --whole-error asks for it. With --divide auto the estimated error becomes that of the light as
-/// given out. With --for it stays unknown.
-void add_division_error(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
-                        const Tracer& tracer, const Solution& solution, const Divided& divided,
-                        const StopFlag& interrupted);
+/// Returns whether a plain run on so many patches divides them. It does where the method is the
+/// standard one, what was asked for says nothing of patches or single steps, and a mesh is written,
+/// which shows no more than its patches have.
+[[nodiscard]] bool divides_by_default(const SolveSettings& settings, std::size_t patches);
 
-/// Returns why --divide auto has not reached the whole error asked for; empty where it has.
-[[nodiscard]] std::string whole_error_note(const SolveSettings& settings,
-                                           const Statistics& statistics);
+/// Returns how patches are divided.
+[[nodiscard]] DivisionChoices division_choices(const SolveSettings& settings);
+
+/// Returns what is chosen of the run, which needs so many bytes besides what the solver keeps.
+[[nodiscard]] RunChoices run_choices(const SolveSettings& settings, double bytes_needed = 0);
+
+/// Returns whether the error of the division is found out: with --divide auto, or where
+/// --whole-error asks for it and rays are not for the target's own patches.
+[[nodiscard]] bool finds_whole_error(const SolveSettings& settings, const Solution& solution);
+
+/// Returns why a run has not reached the whole error asked for; empty where it has.
+[[nodiscard]] std::optional<Finding> whole_error_note(const SolveSettings& settings,
+                                                      const Statistics& statistics);
 
 } // namespace hemilux

@@ -152,6 +152,10 @@ void log_audit(const ViewFactorSettings& settings, const FactorSurfaces& surface
     line(formatted("reciprocity: |A_i F_ij / (A_j F_ji) - 1| is %.1g at most; factors that are not "
                    "listed sum to less than %.2g of a row (95 %%)",
                    worst_reciprocity(factors), unlisted));
+    if (audit.unsolved > 0)
+        line(formatted("warning: the iterations ended before the rows were closed: sums are off by "
+                       "%.2g at most, which the errors hold",
+                       audit.unsolved));
     constexpr double far_beyond_chance = 1.5;
     if (audit.chance_rms > far_beyond_chance && audit.lacking_rms > 1e-8)
         line("warning: the rows lacked more than chance explains; an opening that no ray found, or "

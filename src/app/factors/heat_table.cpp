@@ -224,6 +224,8 @@ void write_heat(const ViewFactorSettings& settings, const FactorSurfaces& surfac
     say(formatted("heat: %.4g W change places, the largest standard error is %.2g W; all add up to "
                   "%.1g W",
                   sizes / 2, worst, sum));
+    if (!exchange.is_solved)
+        say("warning: the iterations ended before the heat was solved; its errors are unknown");
     if (without > 0)
         say("warning: of " + counted(without, "surface", "surfaces") +
             " nothing fixes how warm it is, or no temperature is low enough to take up so much "

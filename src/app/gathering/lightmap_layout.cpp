@@ -8,7 +8,6 @@
 #include "bvh/tracer.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
-#include "io/files/text_words.h"
 #include "io/scene_files/obj_places.h"
 #include "radiosity/answers/asked/text.h"
 #include "radiosity/answers/charts/charts.h"
@@ -314,8 +313,7 @@ void check_unchanged(const LitObj& file, const Mesh& mesh) {
             continue;
         const auto corners = file.corners_of(facet.face);
         for (const std::uint32_t vertex : facet.vertex)
-            if (std::ranges::find(corners, scene.number_read(vertex), &LitObj::Corner::vertex) ==
-                corners.end())
+            if (std::ranges::find(corners, vertex, &LitObj::Corner::vertex) == corners.end())
                 throw InputError(file.path(), "the file has changed since it was read");
     }
 }

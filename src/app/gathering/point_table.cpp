@@ -24,7 +24,7 @@ void write_points(const std::string& path, const Mesh& mesh, std::span<const Nam
                   const csv::MoreColumns& more) {
     if (!gathered.points) // nothing was gathered
         throw Interrupted();
-    const LightOfPoints& light = gathered.points->value;
+    const GatheredPoints& light = gathered.points->value;
     write_points_table(path, mesh, points, light.sensors, light.found.lights, workers, more);
 }
 

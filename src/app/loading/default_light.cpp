@@ -146,7 +146,7 @@ bool stays_dark(const Dark& dark, const SceneSettings& settings) {
     Scene scene = dark.read;
     add_lights(scene, settings);
     const Mesh mesh = mesh_of(std::move(scene), settings.sides);
-    const MadeTracer made = make_tracer(mesh, needs_tree(mesh));
+    const MadeTracer made = make_tracer(mesh);
     return !is_lit(mesh, *made.tracer, settings.sides, dark.view, dark.camera);
 }
 
@@ -160,7 +160,7 @@ std::optional<PutIn> put_in_light(const ReadResult& read, SceneSettings& setting
     add_lights(scene, settings);
     const bool has_light = emits(scene);
     const Mesh mesh = mesh_of(std::move(scene), settings.sides);
-    const MadeTracer made = make_tracer(mesh, needs_tree(mesh));
+    const MadeTracer made = make_tracer(mesh);
     const FileView file = view_of_file(settings.path, read);
     const std::optional<Camera> camera =
         view.camera || !view.uses_camera_of_scene ? view.camera : file.camera;

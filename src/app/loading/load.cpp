@@ -7,11 +7,10 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
 #include "app/terminal/log.h"
+#include "app/terminal/program_watcher.h"
 #include "app/terminal/stage.h"
 #include "app/terminal/summary.h"
-#include "geometry/polygon.h"
 #include "io/files/error.h"
-#include "io/files/text_words.h"
 #include "io/gltf/gltf.h"
 #include "io/scene_files/glass.h"
 #include "io/scene_files/inspect.h"
@@ -19,16 +18,13 @@
 #include "io/scene_files/stl.h"
 #include "io/scene_files/vs3.h"
 #include "parallel/stopwatch.h"
-#include "parallel/workers.h"
 #include "radiosity/answers/asked/text.h"
-#include "radiosity/engine/needs/convex_enclosure.h"
-#include "radiosity/engine/needs/find_needs.h"
-#include "radiosity/engine/needs/unused_vertices.h"
 #include "radiosity/light/layers/layered_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 namespace hemilux {
 
@@ -142,13 +138,13 @@ InputError as_input_error(const SolveError& error, const std::string& path,
 Mesh divide_scene(Scene scene, const SceneSettings& settings, unsigned threads) {
     MeshOptions options = settings.mesh;
     options.threads = threads;
-    try {
-        return layered_mesh(std::move(scene), options);
-    } catch (const std::invalid_argument& error) {
-        if (settings.mesh.max_edge > 0)
-            throw UsageError(std::string("--max-edge: ") + error.what());
-        throw InputError(settings.path, error.what());
-    }
+    return as_of_file(settings, [&] { return layered_mesh(std::move(scene), options); });
+}
+
+void throw_as_of_file(const SceneSettings& settings, const std::invalid_argument& error) {
+    if (settings.mesh.max_edge > 0)
+        throw UsageError(std::string("--max-edge: ") + error.what());
+    throw InputError(settings.path, error.what());
 }
 
 FileView view_of_file(const std::string& path, const ReadResult& read) {
@@ -177,43 +173,27 @@ ViewSettings view_of(const ViewSettings& asked, const FileView& file, Verbosity 
     return view;
 }
 
-/// Prepares the tracer and the needs, each by a thread of its own, where there are two.
 Prepared prepare(LoadedMesh& loaded, const SolveOptions& options, Verbosity verbosity) {
     const Stopwatch preparing;
-    const Stage stage("building the tree", verbosity);
-    const Mesh& mesh = loaded.mesh;
-    Prepared prepared{.needs = {}, .made = std::move(loaded.made), .seconds = 0};
-    Workers(options.threads).for_chunks(2, 1, [&](std::size_t part, std::size_t) {
-        if (part == 0 && !prepared.made.tracer)
-            prepared.made =
-                make_tracer(mesh, options.keep_all || needs_tree(mesh), options.threads);
-        else if (part == 0)
-            return;
-        else if (options.keep_all)
-            prepared.needs.closed = convex_enclosure(mesh) == Enclosure::tight;
-        else
-            prepared.needs = find_needs(mesh);
-    });
-    prepared.seconds = loaded.seconds_sides + preparing.seconds();
-    if (const std::string text = crowd_text(prepared.made.crowd, mesh); !text.empty())
-        warn(loaded, text, verbosity);
-    return prepared;
-}
-
-std::string crowd_text(const Crowd& crowd, const Mesh& mesh) {
-    constexpr std::size_t many = 1000;
-    if (crowd.triangles < many)
-        return "";
-    const Scene& scene = mesh.scene();
-    const Facet& facet = scene.facets[crowd.facet];
-    constexpr double steps = 4096; // in the scene: rounding is not to be printed
-    const Vec3 local = polygon_of(mesh.vertices(), facet.vertex).centre();
-    const Vec3 place = mesh.frame().to_world(glm::round(local * steps) / steps);
-    return "a ray has to test about " + grouped(crowd.triangles) +
-           " triangles, as so many lie in one place (group " + scene.groups[facet.group] +
-           formatted(", around %.4g %.4g %.4g), ", place.x, place.y, place.z) +
-           "so this takes long; remove what is there many times over, as Merge by Distance of "
-           "Blender does, or end sooner by --time";
+    /// Keeps what it warns of.
+    struct Keeping : ProgramWatcher {
+        Keeping(Verbosity wanted, std::vector<std::string>& warnings)
+            : ProgramWatcher(wanted), kept(warnings) {}
+        void take(const Finding& finding) override {
+            if (finding.kind == Finding::Kind::warning)
+                kept.push_back(finding.with_advice());
+            ProgramWatcher::take(finding);
+        }
+        std::vector<std::string>& kept;
+    };
+    Keeping watcher(verbosity, loaded.warnings);
+    std::optional<Stage> stage(std::in_place, "building the tree", verbosity);
+    Problem problem =
+        prepare(std::make_shared<Mesh>(std::move(loaded.mesh)), std::move(loaded.made),
+                {.keep_all = options.keep_all, .threads = options.threads}, watcher);
+    stage.reset();
+    const double seconds = loaded.seconds_sides + preparing.seconds();
+    return {std::move(problem), seconds};
 }
 
 LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
@@ -228,8 +208,6 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
     log_warnings(verbosity, read.warnings);
     check_solvable(read, settings.path);
     const double seconds = reading.seconds();
-    if (!options.keep_all)
-        drop_unused_vertices(read.scene);
     MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods, before);
     need.results = bytes_of_results(patches_of(read.scene, settings.mesh));
     check_memory(need, settings.memory, settings.path);

@@ -5,6 +5,7 @@
 #include "app/settings/settings.h"
 #include "io/files/error.h"
 #include "io/scene_files/read_result.h"
+#include "radiosity/answers/run/problem.h"
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/paper/scene/needs.h"
 #include "radiosity/paper/solution/solve_error.h"
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -65,18 +67,27 @@ struct LoadedMesh {
                                    const Method* before = nullptr);
 
 struct Prepared {
-    Needs needs; ///< everything with --keep-all
-    MadeTracer made;
+    Problem problem;
     double seconds; ///< time with that of the sides
 };
-/// Prepares what solving needs besides the mesh, which must outlive it. Takes over what was made.
-/// Warns where rays will be slow.
+/// Prepares what solving needs. Takes over the mesh and what was made for it. Warns where rays will
+/// be slow.
 [[nodiscard]] Prepared prepare(LoadedMesh& loaded, const SolveOptions& options,
                                Verbosity verbosity);
-/// Returns what makes rays slow, and how to mend it; empty where nothing does.
-[[nodiscard]] std::string crowd_text(const Crowd& crowd, const Mesh& mesh);
 
 /// Divides the faces; throws UsageError where --max-edge would give too many patches.
 [[nodiscard]] Mesh divide_scene(Scene scene, const SceneSettings& settings, unsigned threads = 0);
+/// Throws what keeps faces from being divided as an error of --max-edge or of the file.
+[[noreturn]] void throw_as_of_file(const SceneSettings& settings,
+                                   const std::invalid_argument& error);
+/// Returns what `divide` does, with its errors as those.
+template <class Divide>
+[[nodiscard]] auto as_of_file(const SceneSettings& settings, const Divide& divide) {
+    try {
+        return divide();
+    } catch (const std::invalid_argument& error) {
+        throw_as_of_file(settings, error);
+    }
+}
 
 } // namespace hemilux

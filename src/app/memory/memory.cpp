@@ -33,9 +33,6 @@ constexpr double growth = 2;
 constexpr double bytes_per_triangle = 150;
 /// The bytes of a stepwise method: solution, spread, one step.
 constexpr double bytes_per_solution = 241;
-/// The bytes that `stored-transport` may use for its rays where --memory says nothing: a scene of a
-/// million patches then stays within 3 GB.
-constexpr std::uint64_t default_transport = std::uint64_t{3} << 29;
 /// The bytes of corners, planes and boxes of both sides of a facet, and of its edges.
 constexpr double bytes_of_analysis = 350;
 /// The bytes per pixel: the picture, that of emission and the list by which the exposure is chosen;
@@ -188,17 +185,6 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
         need.method = std::max(need.method, bytes_of(*before, options, patches));
     need.method += bytes_of_ray_batches;
     return need;
-}
-
-SolveOptions with_memory(SolveOptions options, const SceneSettings& scene, double needed,
-                         std::size_t solvers) {
-    options.memory = default_transport;
-    if (scene.memory) {
-        const auto limit = static_cast<double>(*scene.memory);
-        const double left = std::clamp(limit - needed, 1.0, std::max(limit / 2, 1.0));
-        options.memory = static_cast<std::uint64_t>(left / static_cast<double>(solvers)) + 1;
-    }
-    return options;
 }
 
 double bytes_of_picture(PixelSize size, bool gathered, unsigned threads) {

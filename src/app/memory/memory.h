@@ -44,11 +44,6 @@ struct MemoryNeed {
                                      std::span<const Method* const> methods,
                                      const Method* before = nullptr);
 
-/// Returns the options with the part of --memory that each of so many solvers may fill step by
-/// step: what the run leaves that needs `needed` bytes without that, and at most half.
-[[nodiscard]] SolveOptions with_memory(SolveOptions options, const SceneSettings& scene,
-                                       double needed, std::size_t solvers = 1);
-
 /// Returns the bytes at the peak of writing what a run leaves behind, all at once, for so many
 /// patches [bytes]. Points of --points are counted apart.
 [[nodiscard]] double bytes_of_results(const SolveSettings& settings, double patches);

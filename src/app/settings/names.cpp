@@ -1,6 +1,6 @@
 #include "app/settings/names.h"
 
-#include "io/files/text_words.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <algorithm>
 #include <numeric>

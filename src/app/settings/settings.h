@@ -12,6 +12,8 @@
 #include "io/meshes/ply.h"
 #include "io/results/statistics.h"
 #include "radiosity/answers/images/tone.h"
+#include "radiosity/answers/run/side_by_side.h"
+#include "radiosity/answers/run/sides.h"
 #include "radiosity/answers/views/camera_rays.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/light/lamps/lamp_layers.h"
@@ -27,9 +29,6 @@
 namespace hemilux {
 
 struct ReadResult; // io/scene_files/read_result.h
-
-/// The sides of faces that emit and reflect.
-enum class Sides { automatic, front, both };
 
 /// What becomes of materials that let light through.
 enum class Glass { solid, open };
@@ -162,16 +161,6 @@ struct SolveSettings {
     [[nodiscard]] MethodWork work() const { return method->work_with(options); }
 };
 
-/// The budget of each run of each method: one of the three.
-struct Budget {
-    std::optional<double> rays;                 ///< density rays included
-    std::optional<double> seconds;              ///< time of its own, preprocessing included
-    std::optional<double> error;                ///< true error at which a run ends, relative [-]
-    static constexpr double default_steps = 64; ///< steps of the mean rays per patch
-    /// A run that does not reach the error ends after so many times the default number of rays.
-    static constexpr double most_for_error = 64;
-};
-
 /// A method as `compare` names it: METHOD-VALUE is the method with this value of one of its
 /// options, METHOD:NAME=VALUE:NAME=VALUE with several.
 struct MethodVariant {
@@ -192,7 +181,7 @@ struct CompareSettings {
     SceneSettings scene;
     std::vector<MethodVariant> variants;
     SolveOptions options; ///< run r has the seed plus r; `literal` is for methods that have it
-    Budget budget;
+    Budget budget;        ///< of each run of each method
     std::uint32_t runs = 3;
     std::string reference;         ///< path of a patch table; empty: computed by `matrix`
     double reference_error = .002; ///< estimated error at which it is good enough, relative [-]

@@ -30,7 +30,14 @@ Verbosity verbosity_of(Finding::Kind kind) {
 
 void log_finding(Verbosity wanted, const Finding& finding) {
     const std::string mark = finding.kind == Finding::Kind::warning ? "warning: " : "";
-    log_line(wanted, verbosity_of(finding.kind), mark + finding.text);
+    log_line(wanted, verbosity_of(finding.kind), mark + finding.with_advice());
+}
+
+std::vector<std::string> texts_of(const Findings& findings) {
+    std::vector<std::string> texts;
+    for (const Finding& finding : findings)
+        texts.push_back(finding.with_advice());
+    return texts;
 }
 
 std::unique_ptr<Watcher::Stage> ProgramWatcher::begin(const std::string& name,

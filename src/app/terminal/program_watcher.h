@@ -8,11 +8,14 @@
 #include <atomic>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace hemilux {
 
 /// Logs a finding as far as the user wants to see it.
 void log_finding(Verbosity wanted, const Finding& finding);
+/// Returns the sentences of findings.
+[[nodiscard]] std::vector<std::string> texts_of(const Findings& findings);
 
 class ProgramWatcher : public Watcher {
   public:

@@ -88,12 +88,10 @@ std::string mesh_text(const Mesh& mesh) {
            counted(scene.groups.size(), "group", "groups");
 }
 
-std::string tracer_text(const std::optional<BvhQuality>& tree, double seconds) {
-    if (!tree)
-        return "BVH: none, so few faces there are";
-    return "BVH: " + counted(tree->nodes, "node", "nodes") +
-           formatted(", depth %d, SAH cost %.1f, ", tree->depth, tree->sah_cost) +
-           byte_size(tree->bytes) + ", built in " + duration(seconds);
+std::string tracer_text(const BvhQuality& tree, double seconds) {
+    return "BVH: " + counted(tree.nodes, "node", "nodes") +
+           formatted(", depth %d, SAH cost %.1f, ", tree.depth, tree.sah_cost) +
+           byte_size(tree.bytes) + ", built in " + duration(seconds);
 }
 
 std::string step_text(const StepRow& row) {

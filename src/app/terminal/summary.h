@@ -13,7 +13,7 @@ namespace hemilux {
 
 /// Return what was prepared before solving (-v).
 [[nodiscard]] std::string mesh_text(const Mesh& mesh);
-[[nodiscard]] std::string tracer_text(const std::optional<BvhQuality>& tree, double seconds);
+[[nodiscard]] std::string tracer_text(const BvhQuality& tree, double seconds);
 /// Returns the text of one step (-v).
 [[nodiscard]] std::string step_text(const StepRow& row);
 

@@ -29,16 +29,12 @@ class Builder {
   public:
     Builder(const FacetSoup& soup, unsigned threads) : soup_(soup), workers_(threads) {}
 
-    Built run(bool hierarchy) {
+    Built run() {
         Built built;
         find_bounds(built);
         make_items();
         if (items_.empty())
             return built;
-        if (!hierarchy && items_.size() <= width) {
-            make_only_leaf(built);
-            return built;
-        }
         const auto n = static_cast<std::uint32_t>(items_.size());
         job_size_ = std::max(small_job, n / jobs_at_least);
         const Range all = range_of(items_, 0, n);
@@ -94,15 +90,6 @@ class Builder {
         const Vec3 p = shrink_ * soup_.vertices[a], q = shrink_ * soup_.vertices[b],
                    r = shrink_ * soup_.vertices[c];
         items_.emplace_back(glm::min(p, glm::min(q, r)), glm::max(p, glm::max(q, r)), slot);
-    }
-
-    void make_only_leaf(Built& built) const {
-        Part part;
-        const Range all = range_of(items_, 0, static_cast<std::uint32_t>(items_.size()));
-        make_leaf(part, all);
-        built.leaves = HugeArray<Leaf>(1);
-        *built.leaves.data() = part.leaves[0];
-        describe(part, {}, std::max(all.box.half_area(), 1e-30f), built);
     }
 
     /// Divides a range into up to eight and makes them the children of a node.
@@ -328,8 +315,6 @@ double size_of(const Box& bounds) {
     return std::ldexp(1.0, std::clamp(exponent, -1000, 1000));
 }
 
-Built build(const FacetSoup& soup, unsigned threads, bool hierarchy) {
-    return Builder(soup, threads).run(hierarchy);
-}
+Built build(const FacetSoup& soup, unsigned threads) { return Builder(soup, threads).run(); }
 
 } // namespace hemilux::wide

@@ -15,7 +15,7 @@
 namespace hemilux::wide {
 
 struct Built {
-    HugeArray<Node> nodes;            ///< none: the only leaf is the root
+    HugeArray<Node> nodes;            ///< none where there is no facet
     HugeArray<Leaf> leaves;           ///< none: nothing to hit
     Box bounds{Vec3(0.0), Vec3(0.0)}; ///< box of all facets, in the soup's units
     BvhQuality quality;
@@ -25,8 +25,7 @@ struct Built {
 [[nodiscard]] double size_of(const Box& bounds);
 
 /// Builds the tree with so many `threads`, 0 being one per core. Facets with coordinates that are
-/// not finite are left out. Without `hierarchy` up to eight triangles are one leaf with no node
-/// above it.
-[[nodiscard]] Built build(const FacetSoup& soup, unsigned threads, bool hierarchy = true);
+/// not finite are left out.
+[[nodiscard]] Built build(const FacetSoup& soup, unsigned threads);
 
 } // namespace hemilux::wide

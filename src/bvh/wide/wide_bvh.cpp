@@ -84,7 +84,7 @@ wide::RayQuery ray_query(Query& query) { return {&query, load, closer, hits, cou
 
 WideBvh::WideBvh(const FacetSoup& soup, const WideBvhOptions& options)
     : soup_(soup), kernels_(&wide::kernels_of(options.kernels)),
-      built_(wide::build(soup, options.threads, options.hierarchy)), space_{built_.bounds} {
+      built_(wide::build(soup, options.threads)), space_{built_.bounds} {
     space_.size = wide::size_of(built_.bounds);
     space_.shrink = 1 / space_.size;
 }
@@ -147,7 +147,9 @@ std::size_t WideBvh::triangles_around(const Vec3& point) const {
         return true;
     };
     std::size_t triangles = 0;
-    std::vector<std::uint32_t> pending{tree().root};
+    if (built_.nodes.size() == 0)
+        return 0;
+    std::vector<std::uint32_t> pending{0};
     while (!pending.empty()) {
         const std::uint32_t index = pending.back();
         pending.pop_back();
@@ -187,7 +189,7 @@ void WideBvh::facets_within(const Shaft& shaft, std::vector<std::uint32_t>& face
     const std::size_t before = facets.size();
     std::array<std::uint32_t, wide::stack_size> pending;
     std::size_t size = 0;
-    pending[size++] = tree().root;
+    pending[size++] = 0; // the root
     while (size > 0) {
         const std::uint32_t index = pending[--size];
         if ((index & flag) != 0) {
@@ -219,8 +221,7 @@ void WideBvh::facets_within(const Shaft& shaft, std::vector<std::uint32_t>& face
 
 wide::Tree WideBvh::tree() const {
     constexpr std::size_t cache = 1 << 21;
-    return {built_.nodes.data(), built_.leaves.data(), built_.nodes.size() == 0 ? flag : 0u,
-            built_.quality.bytes > cache};
+    return {built_.nodes.data(), built_.leaves.data(), built_.quality.bytes > cache};
 }
 
 void WideBvh::closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const {

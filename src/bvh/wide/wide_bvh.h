@@ -13,8 +13,7 @@
 namespace hemilux {
 
 struct WideBvhOptions {
-    unsigned threads = 0;  ///< threads that build the tree; 0: one per core
-    bool hierarchy = true; ///< false: up to eight triangles are tested at once, no boxes
+    unsigned threads = 0; ///< threads that build the tree; 0: one per core
     InstructionSet kernels = chosen_instruction_set();
 };
 

@@ -41,9 +41,8 @@ struct alignas(64) Leaf {
 };
 
 struct Tree {
-    const Node* nodes;
+    const Node* nodes; ///< the first is the root
     const Leaf* leaves;
-    std::uint32_t root; ///< 0, a node; or the only leaf
     bool large; ///< does not fit the cache of a core, so what is needed next is fetched ahead
 };
 

@@ -90,15 +90,6 @@ std::string_view name_in(std::string_view text) {
     return trimmed(text);
 }
 
-std::string list_names(std::span<const std::string> names, std::size_t most) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
-        text += (i ? ", " : "") + names[i];
-    if (names.size() > most)
-        text += " and " + std::to_string(names.size() - most) + " more";
-    return text;
-}
-
 std::optional<double> parse_decimal(std::string_view word) {
     const std::size_t first = word.starts_with('+') || word.starts_with('-') ? 1 : 0;
     if (first >= word.size() || !(is_digit(word[first]) || word[first] == '.'))

@@ -1,6 +1,5 @@
 #pragma once
-// Words, names and numbers of a line of text, and lists of names. Nothing here depends on the
-// locale.
+// Words, names and numbers of a line of text. Nothing here depends on the locale.
 
 #include <cstddef>
 #include <optional>
@@ -27,9 +26,6 @@ std::string_view take_word(std::string_view& text);
 /// Returns all of the text up to a comment. Names may have a # in them: a comment begins with a #
 /// after a blank, unless a digit follows ("Material #25" is a name).
 [[nodiscard]] std::string_view name_in(std::string_view text);
-
-/// Returns a list such as "a, b, c and 5 more".
-[[nodiscard]] std::string list_names(std::span<const std::string> names, std::size_t most = 8);
 
 /// Reads a decimal number with a point; one too small for a double is 0. The result is empty for
 /// anything else, such as nan, inf, hexadecimal or a number beyond `largest_number`.

@@ -5,6 +5,7 @@
 #include "io/gltf/lights.h"
 #include "io/gltf/scene_meshes.h"
 #include "io/scene_files/glass.h"
+#include "radiosity/answers/asked/text.h"
 #include "radiosity/light/lamps/emitter_shapes.h"
 #include "radiosity/light/sides/shells.h"
 #include "radiosity/light/textures/scene_textures.h"

@@ -37,11 +37,10 @@ std::string file_of(const ImageInfo& image, const std::string& scene, const std:
 }
 
 /// Returns the points of an origin that the corners of a facet of it were read as.
-std::array<std::uint32_t, 4> points_of(const Scene& scene, const Facet& facet,
-                                       const PrimitiveOrigin& origin) {
+std::array<std::uint32_t, 4> points_of(const Facet& facet, const PrimitiveOrigin& origin) {
     std::array<std::uint32_t, 4> points{};
     for (std::size_t k = 0; k < points.size(); ++k)
-        points[k] = scene.number_read(facet.vertex[k]) - origin.first_vertex;
+        points[k] = facet.vertex[k] - origin.first_vertex;
     return points;
 }
 
@@ -146,7 +145,7 @@ std::vector<CornerNormals> normals_of_file(LitSource& source, const Mesh& mesh) 
             const std::uint32_t f = by_face[origin.first_face + t];
             if (f == none)
                 continue;
-            const auto points = points_of(scene, scene.facets[f], origin);
+            const auto points = points_of(scene.facets[f], origin);
             std::array<Vec3, 4> of_corners{};
             Vec3 sum(0.0);
             bool all = true;
@@ -183,7 +182,7 @@ PlacesOfFile places_in_set(LitSource& source, const Mesh& mesh, std::span<const 
                 found.add_without(facet.group);
                 continue;
             }
-            const auto points = points_of(scene, facet, origin);
+            const auto points = points_of(facet, origin);
             PlacedTriangle placed{f, sides[side_of[f]].back, false, 0, {}};
             for (std::size_t k = 0; k < 3; ++k)
                 placed.place[k] = triangles.texcoords[set][points[k]];
@@ -220,7 +219,7 @@ std::vector<AtlasCoordinates> atlas_coordinates(LitSource& source, const Mesh& m
             const std::uint32_t place = f == none ? none : placed_of[f];
             std::array<std::uint32_t, 4> points{};
             if (place != none)
-                points = points_of(scene, scene.facets[f], origin);
+                points = points_of(scene.facets[f], origin);
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t point = read.corners[t][k], vertex = read.vertex[point];
                 corners[k] = vertex;

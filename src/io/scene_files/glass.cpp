@@ -1,6 +1,7 @@
 #include "io/scene_files/glass.h"
 
 #include "io/files/text_words.h"
+#include "radiosity/answers/asked/text.h"
 #include "radiosity/engine/rays/panes.h"
 #include "radiosity/light/textures/scene_textures.h"
 

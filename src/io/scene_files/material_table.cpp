@@ -3,6 +3,7 @@
 #include "io/files/input_file.h"
 #include "io/files/text_words.h"
 #include "io/scene_files/glass.h"
+#include "radiosity/answers/asked/text.h"
 #include "radiosity/light/textures/scene_textures.h"
 
 #include <algorithm>

@@ -68,7 +68,7 @@ PlacesOfFile places_in_obj(const LitObj& file, const Mesh& mesh, std::span<const
             bool is_there = true;
             const auto half = corners_of_half(second);
             for (std::size_t k = 0; is_there && k < 3; ++k) {
-                const auto corner = corner_with(corners, scene.number_read(facet.vertex[half[k]]));
+                const auto corner = corner_with(corners, facet.vertex[half[k]]);
                 is_there = corner && corners[*corner].place < file.places().size();
                 if (!is_there)
                     continue;
@@ -104,7 +104,7 @@ std::string text_with_atlas(const LitObj& file, const Mesh& mesh,
         LitObj::Piece& piece = of_face[face].pieces.emplace_back();
         const auto half = corners_of_half(triangle.second_half);
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t vertex = scene.number_read(facets[triangle.facet].vertex[half[k]]);
+            const std::uint32_t vertex = facets[triangle.facet].vertex[half[k]];
             const std::uint32_t place = numbers.of(vertex, triangle, triangle.place[k]);
             piece.emplace_back(any_corner_with(corners, vertex), place);
             for (std::size_t c = 0; c < corners.size(); ++c)
@@ -136,8 +136,7 @@ std::vector<CornerNormals> normals_of_obj(const LitObj& file, const Mesh& mesh) 
         Vec3 sum(0.0);
         bool all = true;
         for (std::size_t k = 0; k < 4; ++k) {
-            const std::size_t corner =
-                any_corner_with(corners, scene.number_read(facets[f].vertex[k]));
+            const std::size_t corner = any_corner_with(corners, facets[f].vertex[k]);
             const bool is_there = corner < corners.size() &&
                                   corners[corner].normal < file.normals().size() &&
                                   file.normals()[corners[corner].normal] != glm::vec3(0.0f);

@@ -3,7 +3,6 @@
 #include "app/settings/numbers.h"
 #include "app/settings/outputs.h"
 #include "app/settings/overrides.h"
-#include "io/files/text_words.h"
 #include "radiosity/answers/asked/text.h"
 #include "support/catch.h"
 

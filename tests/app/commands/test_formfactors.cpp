@@ -54,7 +54,7 @@ TEST_CASE("formfactors --exact needs no chance in a convex room") {
     REQUIRE(outcome.code == 0);
     CHECK_THAT(outcome.err, Contains("240 pairs by contour integration, 0 by rays"));
     for (const double sum : row_sums(place.read("a.csv"), 24))
-        CHECK(sum == Approx(1).epsilon(1e-8));
+        CHECK(sum == Approx(1).epsilon(1e-12));
     CHECK(place.hemilux("formfactors room.obj --exact --rays 2 --seed 9 -q -o b.csv").err.empty());
     CHECK(place.read("a.csv") == place.read("b.csv"));
 }
@@ -109,7 +109,6 @@ TEST_CASE("formfactors says what is wrong with what it is asked") {
               "rays, exact, hemicube or hemicube:N, not '" + std::string(factors) + "'");
     fails(1, "room.obj -o a.csv --exact --factors hemicube", "--exact");
     fails(1, "room.obj -o a.npy --max-edge .015", "up to 20 000 patches");
-    fails(1, "room.obj -o a.csv --exact --max-edge .05", "up to 2000 patches");
     fails(2, "none.obj -o a.csv", "none.obj");
     fails(3, "room.obj -o nowhere/a.csv", "nowhere");
     CHECK_FALSE(place.has("a.csv"));

@@ -132,7 +132,7 @@ struct Needless {
     const char* name;
     ObjText scene;
     const char* materials;
-    const char* why; ///< in `left_out`; empty: it is gone from the scene
+    const char* why; ///< in `left_out`
     std::vector<std::pair<const char*, Saves>> methods;
     const char* arguments = "";
 };
@@ -150,13 +150,6 @@ std::vector<Needless> needless_scenes() {
     ObjText twins = ObjText().lit_room();
     for (int k = 0; k < 2; ++k)
         twins.quad("white", {{{1, 1, 1}, {1, 1, 3}, {3, 1, 3}, {3, 1, 1}}});
-    ObjText unused; // before those in use, which all get other numbers
-    for (int k = 0; k < 100; ++k)
-        unused.vertex({.01 * k, 1, 1});
-    unused.lit_room().block(1, 1);
-    ObjText few;
-    few.quad("lamp", {{{0, 2, 0}, {1, 2, 0}, {1, 2, 1}, {0, 2, 1}}});
-    few.quad("white", {{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}});
     const ObjText room = ObjText().lit_room().block(1, 1);
     return {
         {"the outside of a room", room, coloured, unlit, all, "--two-sided"},
@@ -184,8 +177,6 @@ std::vector<Needless> needless_scenes() {
          "nothing is emitted there", linear},
         {"all grey", room, "newmtl white\nKd .5 .5 .5\nnewmtl lamp\nKd .5 .5 .5\nKe 9 9 9\n",
          "grey", linear},
-        {"unused vertices", unused, coloured, "", {{"hemisphere", work_alone}}},
-        {"few triangles", few, coloured, "no more than 8 triangles", {{"stratified", work_alone}}},
     };
 }
 

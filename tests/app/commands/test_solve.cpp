@@ -223,10 +223,6 @@ TEST_CASE("what a method alone can do is asked of that method alone") {
         CHECK(outcome.code == 1);
         CHECK_THAT(outcome.err, Contains(option + " is for --method "));
     }
-    const auto large =
-        place.hemilux("solve room.obj --method matrix --exact --max-edge .02 -o b.json");
-    CHECK(large.code == 1);
-    CHECK_THAT(large.err, Contains("--exact is for up to"));
     CHECK(place.hemilux("solve room.obj --every-step -o b.json").code == 1);
     CHECK_FALSE(place.has("b.json"));
 }

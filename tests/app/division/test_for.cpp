@@ -1,13 +1,13 @@
 // `hemilux solve --for`: a part of the scene is right, and all outputs say so.
 #include "app/check_fails.h"
-#include "app/running/target_weights.h"
+#include "app/running/run_target.h"
 #include "app/statistics_file.h"
 #include "io/scene_files/obj.h"
-#include "radiosity/engine/rays/make_tracer.h"
 #include "support/catch.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -96,10 +96,14 @@ TEST_CASE("Points of --for are read once, however often patches are divided") {
     settings.target.points = {place.path("p.txt")};
     const auto points = hemilux::points_of_target(settings.target);
     std::filesystem::remove(place.path("p.txt"));
-    const hemilux::Mesh mesh(hemilux::read_obj(place.path("room.obj")).scene);
-    const hemilux::MadeTracer made = hemilux::make_tracer(mesh, false, 1);
-    const auto weights = hemilux::target_weights(settings, points, mesh, *made.tracer);
-    CHECK(std::ranges::count(weights, 1) == 1);
+    hemilux::Watcher nobody;
+    hemilux::Problem problem = hemilux::prepare(
+        std::make_shared<hemilux::Mesh>(hemilux::read_obj(place.path("room.obj")).scene), {}, {},
+        nobody);
+    hemilux::aim_at(problem, settings, points);
+    CHECK(std::ranges::count(problem.weights, 1) == 1);
+    problem.find_again();
+    CHECK(std::ranges::count(problem.weights, 1) == 1);
 }
 
 TEST_CASE("A run with --for goes on from its checkpoint, and from no other") {

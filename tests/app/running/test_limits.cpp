@@ -1,7 +1,5 @@
 // --time and --memory hold whatever else is asked for.
 #include "app/program.h"
-#include "app/running/step_size.h"
-#include "radiosity/engine/solving/method.h"
 #include "support/catch.h"
 
 #include <cmath>
@@ -20,20 +18,6 @@ std::string repeated(const std::string& text, int times) {
 }
 
 } // namespace
-
-TEST_CASE("a step takes no more rays than its time allows") {
-    const auto rays_of_step = [](double rays, std::optional<double> seconds, std::size_t patches,
-                                 const char* method = "stored-transport") {
-        return hemilux::rays_of_step(rays, seconds, *hemilux::find_method(method), patches);
-    };
-    CHECK(rays_of_step(1e9, std::nullopt, 24) == 1e9);
-    CHECK(rays_of_step(1e9, 5.0, 100) == 12'500);
-    CHECK(rays_of_step(1e9, 16.0, 100, "matrix") == 2500);
-    CHECK(rays_of_step(64, 5.0, 100'000) == 64);
-    CHECK(rays_of_step(1000, 5.0, 100'000) == 64);
-    CHECK(rays_of_step(64, 1.0, 1'000'000) == 2);
-    CHECK(rays_of_step(.5, 1e-9, 1'000'000) == .5);
-}
 
 TEST_CASE("a run to a time ends, whatever --rays asks for") {
     const Workplace place;

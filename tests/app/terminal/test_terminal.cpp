@@ -2,6 +2,7 @@
 #include "app/commands/compare_summary.h"
 #include "app/program.h"
 #include "app/split.h"
+#include "app/terminal/summary.h"
 #include "app/terminal/wrap.h"
 #include "support/catch.h"
 
@@ -260,4 +261,17 @@ TEST_CASE("a terminal shows a path and the line within that file in one piece") 
                Contains("\nwrote " + output + '\n'));
     CHECK_THAT(terminal.shows(place, "solve room.obj -o '" + scene + "/a.csv'"),
                Contains("hemilux: " + scene + "/a.csv:\n"));
+}
+
+TEST_CASE("Where the error of the division was not measured, that of sampling is still said") {
+    hemilux::Statistics run;
+    run.steps = 2;
+    run.estimated_error = run.error_division = hemilux::Statistics::unknown;
+    run.error_sampling = .0191;
+    CHECK_THAT(hemilux::run_text(run),
+               Contains("estimated error unknown: the run ended before that of the "
+                        "division was measured; sampling 1.91 %"));
+    run.error_sampling = hemilux::Statistics::unknown;
+    CHECK_THAT(hemilux::run_text(run),
+               Contains("estimated error unknown") && !Contains("sampling"));
 }

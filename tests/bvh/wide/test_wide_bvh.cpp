@@ -160,12 +160,12 @@ Soup under_sky(Soup soup) {
     return soup;
 }
 
-void check_soup(const Soup& soup, std::size_t rays, bool hierarchy = true) {
+void check_soup(const Soup& soup, std::size_t rays) {
     const std::vector<Ray> alone = rays_for(soup, rays, 99),
                            together = rays_for(soup, rays / 2, 98);
     const Answers right(BruteForce(soup.view()), alone);
     for (const InstructionSet kernels : available_instruction_sets()) {
-        const WideBvh wide_bvh(soup.view(), {.hierarchy = hierarchy, .kernels = kernels});
+        const WideBvh wide_bvh(soup.view(), {.kernels = kernels});
         CAPTURE(name_of(kernels), soup.facets.size());
         check_answers(wide_bvh, right, alone);
         check_streams(wide_bvh, together);
@@ -364,16 +364,4 @@ TEST_CASE("A triangle takes one slot of a leaf, a quad two") {
     for (FacetCorners& corners : soup.facets)
         corners[3] = corners[2];
     CHECK(slots(wide::build(soup.view(), 1)) == std::array{soup.facets.size(), std::size_t{0}});
-}
-
-TEST_CASE("Eight triangles need no tree") {
-    for (const std::size_t facets : {1u, 3u, 4u}) {
-        const Soup soup = test::random_soup(facets, 7 + facets);
-        const BvhQuality flat = WideBvh(soup.view(), {.hierarchy = false}).quality();
-        CHECK(flat.nodes == 0);
-        CHECK(flat.leaves == 1);
-        check_soup(soup, 2000, false);
-    }
-    const Soup more = test::random_soup(20, 1);
-    CHECK(WideBvh(more.view(), {.hierarchy = false}).quality().nodes > 0);
 }

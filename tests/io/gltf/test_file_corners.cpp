@@ -5,7 +5,6 @@
 #include "io/gltf/gltf.h"
 #include "io/gltf/gltf_text.h"
 #include "io/gltf/lit_source.h"
-#include "radiosity/engine/needs/unused_vertices.h"
 #include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
@@ -101,13 +100,12 @@ std::string random_file(Engine& engine) {
 }
 
 /// What becomes of a scene before it is written again: facets are taken out, as panes of glass are,
-/// and turned around, and the vertices that no facet uses are dropped.
+/// and turned around.
 void change(Scene& scene, Engine& engine) {
     std::erase_if(scene.facets, [&](const Facet&) { return number_in(engine, 0, 3) == 0; });
     for (Facet& facet : scene.facets)
         if (number_in(engine, 0, 2) == 0)
             facet.vertex = {facet.vertex[0], facet.vertex[2], facet.vertex[1], facet.vertex[1]};
-    drop_unused_vertices(scene);
 }
 
 /// Reads a random file and changes it; files in which nothing has an area are refused, and others

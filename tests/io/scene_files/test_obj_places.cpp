@@ -2,7 +2,6 @@
 #include "io/scene_files/lit_obj.h"
 #include "io/scene_files/obj.h"
 #include "io/scene_files/obj_places.h"
-#include "radiosity/engine/needs/unused_vertices.h"
 #include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
@@ -63,7 +62,6 @@ TEST_CASE("corners of an OBJ file keep their coordinates, whatever is dropped", 
         const std::string path = folder.write("s.obj", random_file(engine));
         ReadResult read = read_obj(path);
         std::erase_if(read.scene.facets, [&](const Facet&) { return engine() % 4 == 0; });
-        drop_unused_vertices(read.scene);
         if (read.scene.facets.empty())
             continue;
         const Mesh mesh = layered_mesh(std::move(read.scene), {});

@@ -72,7 +72,7 @@ TEST_CASE("a picture shows the texture within a patch", "[textures]") {
     const TemporaryFolder folder;
     const ReadResult result = read(folder, "map_Kd t.png\n", "f 1/1 2/2 3/3 4/4\n");
     const Mesh mesh(result.scene);
-    const MadeTracer made = make_tracer(mesh, false, 1);
+    const MadeTracer made = make_tracer(mesh, 1);
     const std::vector<Vec3> radiosity{Vec3(3) * mesh.material(0u).reflectance};
     const Camera camera{.eye = {1, 1, 5}, .target = {1, 1, 0}, .vertical_fov_degrees = 20};
     for (const bool smooth : {false, true}) {

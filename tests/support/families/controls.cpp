@@ -21,7 +21,7 @@ HardScene with_long_runs(Scene scene, double error) {
     HardScene hard;
     hard.scene = std::move(scene);
     const Mesh mesh = layered_mesh(hard.scene);
-    const MadeTracer made = make_tracer(mesh, true);
+    const MadeTracer made = make_tracer(mesh);
     const std::size_t n = mesh.patches().size();
     hard.reference.resize(n);
     hard.reference_error.resize(n);

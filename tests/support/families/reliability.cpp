@@ -89,7 +89,7 @@ double median(std::vector<double> values) {
 
 PreparedScene::PreparedScene(const HardScene& hard)
     : hard_(hard), mesh_(layered_mesh(hard.scene, hard.options)), needs_(find_needs(mesh_)),
-      made_(make_tracer(mesh_, needs_.tree)) {}
+      made_(make_tracer(mesh_)) {}
 
 void Coverage::add(double score) {
     ++count;

@@ -5,6 +5,8 @@
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/paper/scene/needs.h"
+#include "radiosity/paper/solution/solution.h"
 #include "support/families/hard_scene.h"
 
 #include <cstdint>

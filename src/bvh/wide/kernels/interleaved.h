@@ -54,7 +54,7 @@ struct Queues {
         const std::uint32_t next = state.next;
         const bool node = (next & flag) == 0, done = next == no_facet;
         if (tree.large) {
-            const char* place = place_of(tree, done ? tree.root : next);
+            const char* place = place_of(tree, done ? 0 : next);
             for (unsigned line = 0; line < sizeof(Node); line += 64)
                 __builtin_prefetch(place + line);
             __builtin_prefetch(place + (node ? 0 : sizeof(Leaf) - 64));
@@ -81,7 +81,7 @@ inline void traverse_interleaved(const Tree& tree, const RayQuery& query, unsign
             if (RayState& state = *queues.idle.state[i];
                 query.load(query.query, started, state.ray, state.nearest)) {
                 state.index = started;
-                state.next = tree.root;
+                state.next = 0; // the root
                 state.stack.clear();
                 begin(state);
                 queues.add(state);

@@ -26,7 +26,7 @@ template <Rays rays, class OnLeaf>
 inline void walk(const Tree& tree, const FloatRay& ray, const float& t_max, OnLeaf&& on_leaf) {
     Stack stack;
     stack.clear();
-    for (std::uint32_t now = tree.root; now != no_facet;) {
+    for (std::uint32_t now = 0; now != no_facet;) {
         if ((now & flag) == 0) {
             visit_node<rays>(tree.nodes[now], ray.slabs, t_max, stack);
             now = stack.pop();

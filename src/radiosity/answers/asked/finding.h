@@ -2,7 +2,9 @@
 // What a library has to say of a scene, of work under way and of a result. The program prints it,
 // Python raises warnings and keeps it, a page shows it.
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hemilux {
@@ -17,8 +19,21 @@ struct Finding {
     };
     Kind kind = Kind::note;
     std::string text; ///< a sentence without its full stop
+    /// What may help, which goes on with the sentence after a semicolon and names options of the
+    /// command line; empty: nothing to be said.
+    std::string advice = {};
+
+    [[nodiscard]] std::string with_advice() const {
+        return advice.empty() ? text : text + "; " + advice;
+    }
 };
 
 using Findings = std::vector<Finding>;
+
+/// Adds what was found, if anything was.
+inline void add(Findings& all, std::optional<Finding> found) {
+    if (found)
+        all.push_back(*std::move(found));
+}
 
 } // namespace hemilux

@@ -1,5 +1,6 @@
 #include "radiosity/answers/asked/text.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdarg>
@@ -74,6 +75,15 @@ std::string counted(std::uint64_t count, const std::string& one, const std::stri
 
 std::string short_counted(std::uint64_t count, const std::string& one, const std::string& many) {
     return short_count(static_cast<double>(count)) + " " + (count == 1 ? one : many);
+}
+
+std::string list_names(std::span<const std::string> names, std::size_t most) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+        text += (i ? ", " : "") + names[i];
+    if (names.size() > most)
+        text += " and " + std::to_string(names.size() - most) + " more";
+    return text;
 }
 
 } // namespace hemilux

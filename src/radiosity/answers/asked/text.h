@@ -1,9 +1,11 @@
 #pragma once
-// Figures as people read them.
+// Figures and lists as people read them.
 
 #include "geometry/vector.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace hemilux {
@@ -28,5 +30,7 @@ namespace hemilux {
 /// Returns the same with the number as by short_count(): "1 ray", "12.3 k rays".
 [[nodiscard]] std::string short_counted(std::uint64_t count, const std::string& one,
                                         const std::string& many);
+/// Returns a list such as "a, b, c and 5 more".
+[[nodiscard]] std::string list_names(std::span<const std::string> names, std::size_t most = 8);
 
 } // namespace hemilux

@@ -32,7 +32,7 @@ class PointsTarget final : public GatherTarget {
     [[nodiscard]] std::optional<PictureError> judge(std::size_t places, const Workers& workers,
                                                     const PictureJudge::GoOn& go_on) override;
 
-    LightOfPoints light;
+    GatheredPoints light;
 
   private:
     void limit(PointLightOptions& options) const;
@@ -188,9 +188,9 @@ std::string PointsTarget::end_text() const {
 
 } // namespace
 
-Answer<LightOfPoints> gather_points(Gatherer& gatherer, std::span<const WantedPoint> points,
-                                    double error_of_patches,
-                                    const std::optional<WholeLight>& whole) {
+Answer<GatheredPoints> gather_points(Gatherer& gatherer, std::span<const WantedPoint> points,
+                                     double error_of_patches,
+                                     const std::optional<WholeLight>& whole) {
     PointsTarget target(gatherer, points, error_of_patches);
     const auto [errors, level, work] = gatherer.gather(target, whole);
     target.light.level = level;

@@ -24,7 +24,7 @@ struct WantedLight {
 /// Each answer has its own error.
 struct GatheredLight {
     bool was_wanted = false; ///< any light was
-    std::optional<Answer<LightOfPoints>> points = {};
+    std::optional<Answer<GatheredPoints>> points = {};
     std::vector<Answer<LightOfLightmap>> lightmaps = {};
     std::vector<std::string> objects = {}; ///< NamedLayout::object, by lightmap
     std::optional<Answer<LightOfPicture>> picture =

@@ -52,8 +52,7 @@ struct Room {
     std::unique_ptr<Tracer> tracer;
 
     Room(Scene scene, double max_edge)
-        : mesh(std::move(scene), {.max_edge = max_edge}),
-          tracer(make_tracer(mesh, true, 1).tracer) {}
+        : mesh(std::move(scene), {.max_edge = max_edge}), tracer(make_tracer(mesh, 1).tracer) {}
 };
 
 /// A room around a block; all of one material, which emits.

@@ -1,7 +1,6 @@
 #include "radiosity/engine/form_factors/factor_options.h"
 
 #include "radiosity/engine/factors/points/hemicube.h"
-#include "radiosity/engine/form_factors/exact_form_factors.h"
 #include "radiosity/engine/solving/method_option.h"
 #include "radiosity/engine/solving/own_options.h"
 
@@ -56,10 +55,8 @@ MethodOption factors_option(bool with_exact) {
     };
     return {
         .name = "--factors",
-        .help = "form factors by rays; exact: without chance where patches see each other fully, "
-                "for up to " +
-                std::to_string(max_patches_for_exact_factors) +
-                " patches; hemicube: by a hemicube over each patch, N pixels along its edge "
+        .help = "form factors by rays; exact: by integrals, without chance where patches see each "
+                "other fully; hemicube: by a hemicube over each patch, N pixels along its edge "
                 "[rays; N 64]",
         .values = with_exact ? std::vector<std::string>{"rays", "exact", "hemicube", "hemicube:N"}
                              : std::vector<std::string>{"rays", "hemicube", "hemicube:N"},
@@ -83,13 +80,6 @@ MethodOption exact_option() {
             .get = [](const SolveOptions& options) { return is_exact(options) ? "yes" : "no"; },
             .on_page = false,
             .excludes = "--factors"};
-}
-
-void check_exact(const SolveOptions& options, std::size_t patches) {
-    if (is_exact(options) && patches > max_patches_for_exact_factors)
-        throw std::invalid_argument(
-            "--exact is for up to " + std::to_string(max_patches_for_exact_factors) +
-            " patches, not " + std::to_string(patches) + "; leave it out and take more --rays");
 }
 
 void adapt_to_factors(MethodWork& work, const SolveOptions& options) {

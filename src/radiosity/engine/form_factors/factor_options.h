@@ -9,7 +9,7 @@ namespace hemilux {
 
 enum class FactorKind {
     rays,    ///< samples by chance
-    exact,   ///< no chance where patches see each other fully; for small scenes
+    exact,   ///< integrals, without chance where patches see each other fully
     hemicube ///< pixels of a hemicube over each patch (Cohen and Greenberg 1985)
 };
 
@@ -24,8 +24,6 @@ struct FactorOptions {
 [[nodiscard]] MethodOption factors_option(bool with_exact);
 /// Returns --exact, which is `--factors exact`.
 [[nodiscard]] MethodOption exact_option();
-/// Throws std::invalid_argument where exact factors would take too long.
-void check_exact(const SolveOptions& options, std::size_t patches);
 /// Adapts the work of a method to hemicubes. They look once from all patches, whatever the scene
 /// needs, and what lies between their pixels is not random.
 void adapt_to_factors(MethodWork& work, const SolveOptions& options);

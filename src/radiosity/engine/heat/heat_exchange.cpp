@@ -19,7 +19,6 @@ constexpr int samples = 128;
 
 /// Relative residuals of the solution and of samples.
 constexpr double solved = 1e-12, solved_sample = 1e-4;
-constexpr int max_iterations = 10'000;
 
 constexpr std::size_t rows_at_a_time = 64;
 
@@ -44,7 +43,8 @@ class Enclosure {
   public:
     Enclosure(const ViewFactors& factors, std::span<const GreySurface> surfaces,
               const HeatOptions& options, const Workers& workers)
-        : factors_(factors), workers_(workers), is_fixed_(are_fixed(factors, surfaces, options)) {
+        : factors_(factors), workers_(workers), max_iterations_(options.max_iterations),
+          is_fixed_(are_fixed(factors, surfaces, options)) {
         for (std::size_t k = 0; k < opens; ++k)
             if (options.open[k])
                 open_radiation_[k] = radiation_of(*options.open[k]);
@@ -91,22 +91,24 @@ class Enclosure {
         return heat;
     }
 
-    /// Returns J of all, by conjugate gradients from those that are known.
-    [[nodiscard]] std::vector<double> radiosity() const {
-        std::vector<double> radiosity = given_, rest(rows());
+    /// Finds J of all, by conjugate gradients from those that are known. Returns whether it is
+    /// solved.
+    [[nodiscard]] bool solve(std::vector<double>& radiosity) const {
+        std::vector<double> rest(rows());
+        radiosity = given_;
         for_rows([&](std::size_t i) {
             if (returned_[i] > 0)
                 rest[i] = factors_.area[i] * (gain(i, radiosity) + radiosity[i] -
                                               (radiosity[i] - given_[i]) / returned_[i]);
         });
-        add_light(std::move(rest), solved, radiosity);
-        return radiosity;
+        return add_light(std::move(rest), solved, radiosity);
     }
 
     /// How a sample of the factors' errors moves what arrives at surfaces, and heat of the opens.
     struct Sample {
         std::vector<double> irradiation;
         std::array<double, opens> open{};
+        bool is_solved = true;
     };
     [[nodiscard]] Sample sample(std::span<const double> radiosity, std::uint64_t seed) const;
 
@@ -118,18 +120,20 @@ class Enclosure {
                 body(i);
         });
     }
-    /// Adds the J of a right-hand side, the residual of x before.
-    void add_light(std::vector<double> residual, double tolerance, std::vector<double>& x) const;
+    /// Adds the J of a right-hand side, the residual of x before. Returns whether it is solved.
+    [[nodiscard]] bool add_light(std::vector<double> residual, double tolerance,
+                                 std::vector<double>& x) const;
 
     const ViewFactors& factors_;
     const Workers& workers_;
+    int max_iterations_;
     std::vector<bool> is_fixed_;                              ///< by surface, as what follows
     std::array<std::optional<double>, opens> open_radiation_; ///< sigma T^4 [W/m2]
     std::vector<double> returned_, given_;                    ///< D and e
     std::vector<double> diagonal_;                            ///< 0 where J is known
 };
 
-void Enclosure::add_light(std::vector<double> residual, double tolerance,
+bool Enclosure::add_light(std::vector<double> residual, double tolerance,
                           std::vector<double>& x) const {
     double scale = 0;
     for (std::size_t i = 0; i < rows(); ++i)
@@ -145,15 +149,18 @@ void Enclosure::add_light(std::vector<double> residual, double tolerance,
             product[i] = diagonal_[i] * light[i] - factors_.area[i] * off;
         });
     };
-    add_solution(
-        diagonal_, std::move(residual),
-        {.square = tolerance * tolerance, .least_scale = scale, .iterations = max_iterations},
-        multiply, x);
+    return add_solution(diagonal_, std::move(residual),
+                        {.square = tolerance * tolerance,
+                         .least_scale = scale,
+                         .iterations = max_iterations_},
+                        multiply, x)
+        .converged;
 }
 
 Enclosure::Sample Enclosure::sample(std::span<const double> radiosity, std::uint64_t seed) const {
     std::vector<double> moved(rows()); // heat to a surface, over A_i
-    Sample sample{std::vector<double>(rows()), {}};
+    Sample sample;
+    sample.irradiation.resize(rows());
     for_rows([&](std::size_t i) {
         const auto at = static_cast<std::uint32_t>(i);
         for (std::size_t k = factors_.row_begin[i]; k < factors_.row_begin[i + 1]; ++k) {
@@ -177,7 +184,7 @@ Enclosure::Sample Enclosure::sample(std::span<const double> radiosity, std::uint
     std::vector<double> change(rows()), right(rows());
     for (std::size_t i = 0; i < rows(); ++i)
         right[i] = returned_[i] > 0 ? factors_.area[i] * moved[i] : 0;
-    add_light(std::move(right), solved_sample, change);
+    sample.is_solved = add_light(std::move(right), solved_sample, change);
     for_rows(
         [&](std::size_t i) { sample.irradiation[i] = moved[i] + change[i] + gain(i, change, 0); });
     for (std::size_t k = 0; k < opens; ++k)
@@ -190,8 +197,8 @@ HeatEstimate temperature_of(const HeatEstimate& radiation) {
     if (!(radiation.value >= 0))
         return unknown;
     const double temperature = std::sqrt(std::sqrt(radiation.value / stefan_boltzmann));
-    if (!(radiation.error > 0))
-        return {temperature, 0};
+    if (!(radiation.error > 0)) // none, or unknown
+        return {temperature, radiation.error};
     // Where the error is as large as the radiation, the temperature is as unsure as that of it.
     const double above =
         std::sqrt(std::sqrt((radiation.value + radiation.error) / stefan_boltzmann));
@@ -241,9 +248,10 @@ std::vector<bool> are_fixed(const ViewFactors& factors, std::span<const GreySurf
 HeatExchange exchange_heat(const ViewFactors& factors, std::span<const GreySurface> surfaces,
                            const HeatOptions& options, const Workers& workers) {
     const Enclosure enclosure(factors, surfaces, options, workers);
-    const std::vector<double> radiosity = enclosure.radiosity();
+    std::vector<double> radiosity;
     std::vector<HeatEstimate> irradiation(factors.rows());
     HeatExchange exchange;
+    exchange.is_solved = enclosure.solve(radiosity);
     for (std::size_t i = 0; i < factors.rows(); ++i)
         irradiation[i].value = radiosity[i] + enclosure.gain(i, radiosity);
     for (std::size_t k = 0; k < opens; ++k)
@@ -255,11 +263,13 @@ HeatExchange exchange_heat(const ViewFactors& factors, std::span<const GreySurfa
             irradiation[i].error += sample.irradiation[i] * sample.irradiation[i] / samples;
         for (std::size_t k = 0; k < opens; ++k)
             exchange.open[k].error += sample.open[k] * sample.open[k] / samples;
+        exchange.is_solved = exchange.is_solved && sample.is_solved;
     }
+    const double known = exchange.is_solved ? 1 : unknown.error;
     for (HeatEstimate& open : exchange.open)
-        open.error = std::sqrt(open.error);
+        open.error = known * std::sqrt(open.error);
     for (std::size_t i = 0; i < factors.rows(); ++i) {
-        irradiation[i].error = std::sqrt(irradiation[i].error);
+        irradiation[i].error = known * std::sqrt(irradiation[i].error);
         exchange.surfaces.push_back(enclosure.is_fixed(i) ? heat_of(surfaces[i], irradiation[i])
                                                           : SurfaceHeat{unknown, unknown, unknown});
     }

@@ -50,6 +50,8 @@ struct HeatExchange {
     /// Heat that sky and ground give to the surfaces, and backs 0 [W/m2 times the unit of area of
     /// the factors].
     std::array<HeatEstimate, opens> open;
+    /// Whether the iterations have solved it. If they ended at their limit, all errors are NaN.
+    bool is_solved = true;
 };
 
 struct HeatOptions {
@@ -57,6 +59,7 @@ struct HeatOptions {
     /// nothing with it.
     std::array<std::optional<double>, opens> open;
     std::uint64_t seed = 1; ///< of the errors' samples
+    int max_iterations = 10'000;
 };
 
 /// Returns by row whether anything fixes how warm it is: its own temperature, that of the sky or

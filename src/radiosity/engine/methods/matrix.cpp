@@ -5,17 +5,17 @@
 // Several independent batches of the factors give several solutions; their mean is the result, and
 // their spread gives its standard error. Each step doubles the rays; the run ends when the
 // estimated error is small enough (.002 unless asked otherwise). With --factors exact, factors
-// between patches that see each other fully are found without chance, by contour integration
-// (exact_form_factors.h). Rays are used for the other pairs. With --factors hemicube, a
-// hemicube over each patch gives its factors (hemicube.h). That is one step, and its error is not
-// estimated (linear/hemicube_matrix.h).
+// between patches that see each other fully are found without chance, by integrals, and those of
+// other pairs by lines between both (closed_form_factors.h); each step halves the errors that these
+// may have. With --factors hemicube, a hemicube over each patch gives its factors (hemicube.h).
+// That is one step, and its error is not estimated (linear/hemicube_matrix.h).
 //
 // The method is consistent: a solution depends on its factors in a non-linear way, so its bias
 // falls as one over the rays, well below its error. It is good up to some ten thousand patches:
-// memory is 8 bytes per batch and per pair of patches that see each other. Exact factors are for
-// small scenes: their time grows as patches^2 faces.
+// memory is 8 bytes per batch and per pair of patches that see each other. Time and memory of exact
+// factors grow as the square of the patches.
 
-#include "radiosity/engine/form_factors/exact_form_factors.h"
+#include "radiosity/engine/form_factors/closed_form_factors.h"
 #include "radiosity/engine/form_factors/factor_options.h"
 #include "radiosity/engine/form_factors/sampled_form_factors.h"
 #include "radiosity/engine/linear/batch_solutions.h"
@@ -23,6 +23,7 @@
 #include "radiosity/engine/linear/gmres.h"
 #include "radiosity/engine/linear/hemicube_matrix.h"
 #include "radiosity/engine/linear/surfaces.h"
+#include "radiosity/engine/linear/unsolved_light.h"
 #include "radiosity/engine/solving/engine_solver.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/method_option.h"
@@ -45,12 +46,17 @@ namespace {
 /// The bytes per form factor at the peak: column, value, and the counts that they come from, with
 /// room to grow.
 constexpr double bytes_per_factor = 32;
+/// The same for exact factors, of which only one batch is there at a time.
+constexpr double bytes_per_exact_factor = 48;
 
 constexpr std::size_t batches = 8;
+/// The standard error of exact factors that may be hidden in part, times the rays: so both sorts of
+/// errors fall from step to step, and the first is about what is asked for by default.
+constexpr double error_by_rays = .25;
+/// What the quadrature of exact factors may move the light by at most [-].
+constexpr double error_of_exact = 1e-9;
 /// The rays per patch and batch at which the run ends whatever the error.
 constexpr std::uint32_t max_rays = 1u << 20;
-/// The share of a row of exact factors that may be missing by rounding [-].
-constexpr double rounding_of_rows = 1e-8;
 
 /// Returns the patches whose columns get the closed form: all that emit, unless they are so many
 /// that rays find them anyway.
@@ -73,13 +79,10 @@ class MatrixSolver final : public EngineSolver {
           batches_(input, batches, solution_), surfaces_(input.mesh) {
         const std::vector<std::uint32_t> emitters = few_emitters(input.mesh);
         if (own_options<FactorOptions>(input.options).kind == FactorKind::exact)
-            exact_.emplace(input.mesh, workers_, input.monitor);
-        rays_find_emission_ = emitters.empty();
-        // Exact factors are put together with those of all patches.
-        const Needs& needs = exact_ ? everything_needed : input.needs;
-        for (std::uint64_t r = 0; r < batches; ++r)
-            factors_.emplace_back(input.mesh, input.tracer, emitters,
-                                  hash_words({input.options.seed, r}), needs);
+            exact_.emplace(input.mesh, input.tracer, workers_, input.monitor);
+        rays_find_emission_ = exact_ || emitters.empty();
+        for (std::uint64_t r = 0; r < batches && !exact_; ++r)
+            factors_.emplace_back(input.mesh, input.tracer, emitters, seed_of(r), input.needs);
         solution_.error_batches = batches;
     }
 
@@ -95,7 +98,7 @@ class MatrixSolver final : public EngineSolver {
     /// light.
     [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
         const std::uint32_t rays = rays_ == 0 ? first_rays() : 2 * rays_;
-        for (std::size_t r = 0; r < batches; ++r) {
+        for (std::size_t r = 0; r < factors_.size(); ++r) {
             input_.monitor.phase = "rays";
             traced_ += factors_[r].trace_up_to(rays, workers_, input_.monitor);
             input_.monitor.step_share = static_cast<double>(r + 1) / batches;
@@ -106,9 +109,11 @@ class MatrixSolver final : public EngineSolver {
         std::vector<std::vector<EmitterLoss>> losses(batches);
         if (!exact_) // whose rows show what is lost
             losses = emitter_losses(factors_, rays);
+        const FactorTolerance tolerance = tolerance_of_light();
         const std::optional<bool> solved =
             batches_.solve(search, solution_, [&](std::size_t r, std::vector<Vec3>& radiosity) {
-                return solve(factors_[r], losses[r], radiosity);
+                return exact_ ? solve_exact(r, tolerance, radiosity)
+                              : solve(factors_[r], losses[r], radiosity);
             });
         if (solved == false)
             return false;
@@ -128,7 +133,8 @@ class MatrixSolver final : public EngineSolver {
   private:
     /// Returns a power of two, for which the points are best distributed.
     [[nodiscard]] std::uint32_t first_rays() const {
-        const double asked = std::clamp(input_.options.rays, 1.0, double(max_rays));
+        const double least = exact_ ? ClosedFormFactors::min_rays : 1.0;
+        const double asked = std::clamp(input_.options.rays, least, double(max_rays));
         return std::bit_ceil(static_cast<std::uint32_t>(std::ceil(asked)));
     }
 
@@ -136,19 +142,16 @@ class MatrixSolver final : public EngineSolver {
     /// are, of one kind or the other as rays tell; for emitters, they are what is known best.
     SolvedBatch solve(const SampledFormFactors& factors, std::span<const EmitterLoss> losses,
                       std::vector<Vec3>& radiosity) {
-        const SparseMatrix f = exact_ ? exact_->matrix(factors) : factors.matrix();
+        const SparseMatrix f = factors.matrix();
         const std::size_t n = radiosity.size();
         std::vector<double> rays(n, rays_of_step_);
         std::vector<EscapeFraction> lost(n);
         const std::vector<double> ones(n, 1.0);
         std::vector<double> kept(n);
         f.multiply(ones, kept, workers_);
-        const EscapeFraction elsewhere = kinds_elsewhere(factors);
         for (std::uint32_t i = 0; i < n; ++i) {
             const double share = std::clamp(1 - kept[i], 0.0, 1.0);
-            const bool unseen =
-                exact_ && share > rounding_of_rows && !(factors.lost()[i].sum() > 0);
-            const EscapeFraction& kinds = unseen ? elsewhere : factors.lost()[i];
+            const EscapeFraction& kinds = factors.lost()[i];
             const double scale = kinds.sum() > 0 ? share / kinds.sum() : 0;
             lost[i] = {scale * kinds.escaped, scale * kinds.absorbed};
         }
@@ -161,21 +164,68 @@ class MatrixSolver final : public EngineSolver {
                             input_, radiosity);
     }
 
-    /// Returns of which kinds the losses are, for rows whose exact factors show that light is lost
-    /// and whose rays do not.
-    [[nodiscard]] static EscapeFraction kinds_elsewhere(const SampledFormFactors& factors) {
-        EscapeFraction sum;
-        for (const EscapeFraction& lost : factors.lost()) {
-            sum.escaped += lost.escaped;
-            sum.absorbed += lost.absorbed;
+    /// Solves one batch with exact factors where there are any, from its last solution on.
+    SolvedBatch solve_exact(std::size_t r, const FactorTolerance& tolerance,
+                            std::vector<Vec3>& radiosity) {
+        const std::optional<ClosedFactors> factors =
+            exact_->batch(seed_of(r), rays_of_step_, tolerance, workers_, input_.monitor);
+        if (!factors)
+            return {};
+        traced_ += factors->rays;
+        input_.monitor.step_share = static_cast<double>(r + 1) / batches;
+        const std::vector<double> rays(radiosity.size(), rays_of_step_);
+        SolvedBatch batch = solve_closed(
+            [&](auto x, auto y) { factors->matrix.multiply(x, y, workers_); },
+            {surfaces_.area, surfaces_.emission, surfaces_.reflectance, factors->lost, rays},
+            input_, radiosity);
+        batch.unsolved = std::max(batch.unsolved, error_of_exact);
+        if (factors->unclosed > 0) {
+            double most = 0;
+            for (const Vec3& rho : surfaces_.reflectance)
+                most = std::max({most, rho.x, rho.y, rho.z});
+            batch.unsolved = std::max(batch.unsolved, unsolved_error(factors->unclosed, 1 - most));
         }
-        return sum.sum() > 0 ? sum : EscapeFraction{.escaped = 1};
+        return batch;
     }
 
-    /// Returns whether rays may have missed something. Contour integration misses nothing, and in a
-    /// closed scene no light is lost.
+    /// Returns the standard error that factors between patches may have in a batch: less the
+    /// brighter one of them is, compared with the light that would arrive if nothing hid the
+    /// emitters, as a mean over this light. No patch counts as darker than half of that.
+    [[nodiscard]] FactorTolerance tolerance_of_light() const {
+        const double of_mean = error_by_rays / rays_of_step_;
+        std::vector<double> light(solution_.radiosity.size());
+        for (std::size_t i = 0; i < light.size() && exact_; ++i)
+            light[i] = mean_of_channels(surfaces_.emission[i]);
+        double power = 0, squares = 0;
+        if (exact_) {
+            const std::vector<double> arriving = exact_->free_light(light);
+            for (std::size_t i = 0; i < light.size(); ++i) {
+                power += surfaces_.area[i] * arriving[i];
+                squares += surfaces_.area[i] * arriving[i] * arriving[i];
+            }
+        }
+        if (!(power > 0))
+            return {of_mean, [of_mean](std::uint32_t, std::uint32_t, double) { return of_mean; }};
+        const double mean = squares / power;
+        double most = mean;
+        for (std::size_t i = 0; i < light.size(); ++i) {
+            light[i] = std::max(mean_of_channels(solution_.radiosity[i]), .5 * mean);
+            most = std::max(most, light[i]);
+        }
+        return {of_mean * mean / most, [light = std::move(light), whole = of_mean * mean](
+                                           std::uint32_t i, std::uint32_t j, double) {
+                    return whole / std::max(light[i], light[j]);
+                }};
+    }
+
+    [[nodiscard]] std::uint64_t seed_of(std::uint64_t batch) const {
+        return hash_words({input_.options.seed, batch});
+    }
+
+    /// Returns whether rays may have missed something. Integrals miss nothing, and in a closed
+    /// scene no light is lost.
     [[nodiscard]] bool may_miss() const {
-        return !input_.needs.closed && !(exact_ && exact_->sampled_pairs() == 0);
+        return !input_.needs.closed && !(exact_ && exact_->other_pairs() == 0);
     }
 
     void combine() {
@@ -231,7 +281,7 @@ class MatrixSolver final : public EngineSolver {
     BatchSolutions batches_;
     Surfaces surfaces_;
     std::vector<SampledFormFactors> factors_;
-    std::optional<ExactFormFactors> exact_;
+    std::optional<ClosedFormFactors> exact_;
     bool rays_find_emission_ = true; ///< no column has the closed form
     std::uint32_t rays_ = 0;         ///< rays per patch and batch
     std::uint32_t rays_of_step_ = 0; ///< those of the step under way
@@ -260,6 +310,8 @@ double bytes(const SolveOptions& options, double patches) {
     if (factors.kind == FactorKind::hemicube)
         return bytes_per_factor * patches *
                std::min(patches, 3.0 * factors.hemicube_edge * factors.hemicube_edge);
+    if (factors.kind == FactorKind::exact)
+        return bytes_per_exact_factor * patches * patches + bytes_of_solvers(options, patches);
     return double(batches) * bytes_per_factor * patches * std::min(patches, options.rays) +
            bytes_of_solvers(options, patches);
 }
@@ -277,7 +329,6 @@ extern const Method matrix_method{
     .max_plain_patches = plain::max_patches_of_matrix,
     .role = Role::reference,
     .options = options,
-    .check = check_exact,
     .adapt = adapt_to_factors,
     .bytes = bytes,
 };

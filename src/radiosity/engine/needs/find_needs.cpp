@@ -12,14 +12,6 @@ namespace {
 
 bool is_black(const Vec3& v) { return !glm::any(glm::greaterThan(v, Vec3(0.0))); }
 
-/// Counts triangles; a quad counts as two.
-std::size_t count_triangles(const Scene& scene) {
-    std::size_t count = 0;
-    for (const Facet& facet : scene.facets)
-        count += facet.is_triangle() ? 1 : 2;
-    return count;
-}
-
 /// Returns whether two channels are alike, or one is dark if `other` is Needs::dark.
 bool has_solution_of(int channel, int other, const Mesh& mesh) {
     const auto emitted_alike = [&](const Vec3& v) {
@@ -65,17 +57,12 @@ void find_idle_patches(const Mesh& mesh, Needs& needs) {
 
 } // namespace
 
-bool needs_tree(const Mesh& mesh) {
-    return count_triangles(mesh.scene()) > max_triangles_without_tree;
-}
-
 Needs find_needs(const Mesh& mesh) {
     Needs needs;
     find_channels(mesh, needs);
     const Enclosure room = convex_enclosure(mesh);
     needs.closed = room == Enclosure::tight;
     needs.visibility = room == Enclosure::not_found;
-    needs.tree = needs_tree(mesh);
     find_idle_patches(mesh, needs);
     return needs;
 }

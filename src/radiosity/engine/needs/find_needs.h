@@ -15,11 +15,4 @@ class Mesh;
 /// The answer is conservative: what is uncertain is needed.
 [[nodiscard]] Needs find_needs(const Mesh& mesh);
 
-/// Returns whether rays need a tree, as find_needs() finds it, without the rest of the analysis.
-[[nodiscard]] bool needs_tree(const Mesh& mesh);
-
-/// Up to so many triangles form one leaf of the tree, tested at once. With more of them boxes pay
-/// (measured in docs/measured/results.md).
-inline constexpr std::size_t max_triangles_without_tree = 8;
-
 } // namespace hemilux

@@ -26,7 +26,7 @@ Crowd find_crowd(const Mesh& mesh, const WideBvh& tree) {
             crowd.facet = f;
         }
     }
-    crowd.triangles = sum / asked;
+    crowd.triangles = asked > 0 ? sum / asked : 0;
     return crowd;
 }
 
@@ -38,11 +38,9 @@ std::unique_ptr<Tracer> with_panes(std::unique_ptr<Tracer> facets, const Mesh& m
 
 } // namespace
 
-MadeTracer make_tracer(const Mesh& mesh, bool tree, unsigned threads) {
-    auto tracer = std::make_unique<WideBvh>(mesh.soup_to_trace(),
-                                            WideBvhOptions{.threads = threads, .hierarchy = tree});
-    if (!tree)
-        return {with_panes(std::move(tracer), mesh), {}, {}};
+MadeTracer make_tracer(const Mesh& mesh, unsigned threads) {
+    auto tracer =
+        std::make_unique<WideBvh>(mesh.soup_to_trace(), WideBvhOptions{.threads = threads});
     const BvhQuality quality = tracer->quality();
     const Crowd crowd = find_crowd(mesh, *tracer);
     return {with_panes(std::move(tracer), mesh), quality, crowd};

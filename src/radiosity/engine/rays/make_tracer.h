@@ -5,7 +5,6 @@
 #include "bvh/tracer.h"
 
 #include <memory>
-#include <optional>
 
 namespace hemilux {
 
@@ -20,12 +19,12 @@ struct Crowd {
 
 struct MadeTracer {
     std::unique_ptr<Tracer> tracer;
-    std::optional<BvhQuality> tree; ///< empty where rays test all facets
-    Crowd crowd;                    ///< crowd in the tree
+    BvhQuality tree;
+    Crowd crowd; ///< crowd in the tree
 };
 
 /// Makes a tracer, which the mesh must outlive. It lets light through the panes of the scene.
-/// `tree` is that of Needs. So many `threads` build it; 0 means one per core.
-[[nodiscard]] MadeTracer make_tracer(const Mesh& mesh, bool tree, unsigned threads = 0);
+/// So many `threads` build its tree; 0 means one per core.
+[[nodiscard]] MadeTracer make_tracer(const Mesh& mesh, unsigned threads = 0);
 
 } // namespace hemilux

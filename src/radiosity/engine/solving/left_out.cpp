@@ -1,8 +1,8 @@
 #include "radiosity/engine/solving/left_out.h"
 
-#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/transport_figures.h"
+#include "radiosity/paper/scene/needs.h"
 #include "radiosity/paper/solution/solution.h"
 
 #include <array>
@@ -57,12 +57,6 @@ std::vector<LeftOut> left_out_of(const Needs& needs, const MethodWork& work) {
         list.push_back({"all passes but the first", "nothing reflects that light reaches",
                         "all steps but one, and the search for their length"});
     add_idle_patches(needs, work, list);
-    if (!needs.tree)
-        list.push_back({"the bounding volume hierarchy",
-                        "all are tested at once, as there are no more than " +
-                            std::to_string(max_triangles_without_tree) +
-                            " triangles (or halves of quads)",
-                        "visits to boxes"});
     return list;
 }
 

@@ -3,6 +3,7 @@
 // side and a symmetric positive definite matrix that is known by its products.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -17,12 +18,19 @@ struct GradientsLimit {
     int iterations;
 };
 
+struct GradientsEnd {
+    int iterations = 0;
+    double residual = 0; ///< |r| as a share of what it was, or of what `least_scale` stands for [-]
+    bool converged = true; ///< false where the iterations ended at their limit
+};
+
 /// Adds to x the solution for the right-hand side `residual`, which is that of x before.
 /// multiply(direction, product) gives the product with the matrix. Rows whose diagonal is 0 keep
 /// their x.
 template <class Multiply>
-void add_solution(std::span<const double> diagonal, std::vector<double> residual,
-                  const GradientsLimit& limit, const Multiply& multiply, std::span<double> x) {
+[[nodiscard]] GradientsEnd add_solution(std::span<const double> diagonal,
+                                        std::vector<double> residual, const GradientsLimit& limit,
+                                        const Multiply& multiply, std::span<double> x) {
     const std::size_t rows = diagonal.size();
     std::vector<double> direction(rows), product(rows), scaled(rows);
     const auto precondition = [&] {
@@ -34,9 +42,10 @@ void add_solution(std::span<const double> diagonal, std::vector<double> residual
         return sum;
     };
     double size = precondition();
-    const double enough = limit.square * std::max(size, limit.least_scale);
+    const double scale = std::max(size, limit.least_scale), enough = limit.square * scale;
     direction = scaled;
-    for (int k = 0; k < limit.iterations && size > enough; ++k) {
+    int k = 0;
+    for (; k < limit.iterations && size > enough; ++k) {
         multiply(direction, product);
         double curvature = 0;
         for (std::size_t i = 0; i < rows; ++i)
@@ -53,6 +62,7 @@ void add_solution(std::span<const double> diagonal, std::vector<double> residual
         for (std::size_t i = 0; i < rows; ++i)
             direction[i] = scaled[i] + size / before * direction[i];
     }
+    return {k, scale > 0 ? std::sqrt(size / scale) : 0, k < limit.iterations || size <= enough};
 }
 
 } // namespace hemilux

@@ -253,7 +253,7 @@ Orientation find_orientation(const Scene& scene) {
     if (scene.facets.empty())
         return {};
     const Mesh mesh = layered_mesh(scene);
-    const MadeTracer made = make_tracer(mesh, needs_tree(mesh));
+    const MadeTracer made = make_tracer(mesh);
     Orientation found = find_orientation(mesh, *made.tracer);
     if (found.faces == 0)
         found.light = find_light_shares(mesh, *made.tracer);

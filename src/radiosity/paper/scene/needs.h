@@ -22,7 +22,6 @@ struct Needs {
     /// each direction, so densities need no rays.
     bool visibility = true;
     bool bounces = true; ///< false: nothing that light may reach reflects
-    bool tree = true;    ///< false: so few triangles that a ray tests them all at once
 
     /// No ray can leave the scene or meet the back of a face, as its geometry proves. This leaves
     /// no work out; it says which errors are possible.

@@ -49,13 +49,6 @@ struct Scene {
     /// above.
     std::shared_ptr<const std::vector<Pane>> panes = {};
 
-    /// The number that each vertex was read with, where others were dropped since; empty: its own.
-    /// By it a vertex is found in its file again.
-    std::vector<std::uint32_t> read_as = {};
-
-    [[nodiscard]] std::uint32_t number_read(std::uint32_t vertex) const {
-        return read_as.empty() ? vertex : read_as[vertex];
-    }
     [[nodiscard]] bool colours_vary_on(std::uint32_t material) const {
         return varying && varying->on(material);
     }

@@ -114,7 +114,7 @@ TEST_CASE("what lies behind a pane is dimmed by it") {
     const Pane behind{{Vec3(0, 0, -1), Vec3(1, 0, -1), Vec3(1, 1, -1), Vec3(0, 1, -1)}, 0};
     scene.panes = std::make_shared<const std::vector<Pane>>(std::vector<Pane>{left, behind});
     const Mesh mesh(std::move(scene));
-    const MadeTracer made = make_tracer(mesh, false, 1);
+    const MadeTracer made = make_tracer(mesh, 1);
     const std::vector<Vec3> b(4, {1, 2, 3});
     const Image image =
         render(mesh, *made.tracer, b, square_camera, {.width = 4, .height = 4, .samples = 4});

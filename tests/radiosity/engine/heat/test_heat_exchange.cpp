@@ -252,3 +252,20 @@ TEST_CASE("What nothing fixes is unknown, and the rest is as without it") {
     const HeatExchange again = heat(both, surfaces, {.open = {250, 250, {}}}, 1);
     CHECK(again.surfaces[2].flux.error == found.surfaces[2].flux.error);
 }
+
+TEST_CASE("Heat that is not solved within the iterations has no error, rather than a wrong one") {
+    Rng random(5);
+    Room room = random_room(12, .1, random);
+    const std::vector<GreySurface> surfaces = random_surfaces(12, random);
+    HeatOptions options;
+    options.open = {280.0, 290.0, std::nullopt};
+    const ViewFactors factors = factors_of(room);
+    CHECK(exchange_heat(factors, surfaces, options, Workers(1)).is_solved);
+    options.max_iterations = 2;
+    const HeatExchange exchange = exchange_heat(factors, surfaces, options, Workers(1));
+    CHECK_FALSE(exchange.is_solved);
+    CHECK(std::isnan(exchange.open[0].error));
+    for (const SurfaceHeat& heat : exchange.surfaces) {
+        CHECK(std::isnan(heat.irradiation.error));
+    }
+}

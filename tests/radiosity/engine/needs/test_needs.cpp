@@ -5,7 +5,6 @@
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/needs/lit_facets.h"
-#include "radiosity/engine/needs/unused_vertices.h"
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/engine/rays/point_emitter.h"
 #include "radiosity/engine/solving/left_out.h"
@@ -51,7 +50,7 @@ SolveOptions with_rays(double rays, bool literal = false) {
 Solution solve_with(const Mesh& mesh, const Needs& needs, const Method& method,
                     const SolveOptions& options, std::uint32_t steps) {
     Monitor monitor;
-    const MadeTracer made = make_tracer(mesh, needs.tree);
+    const MadeTracer made = make_tracer(mesh);
     const SolverInput input{mesh, *made.tracer, options, monitor, needs};
     const auto solver = method.make(input);
     run(*solver, input, test::steps(steps));
@@ -349,7 +348,7 @@ TEST_CASE("What is left out keeps every byte where that is promised, else the re
     const std::vector<Case> cases{
         {grey_cube(), {}, Omission::convex, {"colour", "densities", "visibility"}},
         {cube_with_cut_ceiling(3), {.max_edge = .4}, Omission::convex, {"densities", "visibility"}},
-        {test::sphere(0, 1, .5, 1), {.max_edge = .4}, Omission::convex, {"colour", "hierarchy"}},
+        {test::sphere(0, 1, .5, 1), {.max_edge = .4}, Omission::convex, {"colour", "densities"}},
         {test::sphere(2, 1, .5, 1), {}, Omission::convex, {"densities"}},
         {test::room_with_block(), {.two_sided = true}, Omission::unlit, {"no light"}},
         {room_with_black_walls(), {}, Omission::black, {"reflect"}},
@@ -497,41 +496,6 @@ TEST_CASE("A full density store has the same leaves as one of the divided triang
             return x.vertex == y.vertex && x.surfaces == y.surfaces;
         }));
     }
-}
-
-TEST_CASE("Few triangles are traced without a tree, with the same hits") {
-    const Mesh few(test::sphere(0, 1, .5, 1)), many(test::cube_with_lit_floor(1, .5));
-    CHECK_FALSE(find_needs(few).tree);
-    CHECK(find_needs(many).tree);
-    const MadeTracer flat = make_tracer(few, needs_tree(few));
-    const MadeTracer tree = make_tracer(few, true);
-    CHECK_FALSE(flat.tree);
-    REQUIRE(tree.tree);
-    Rng rng(9);
-    for (int k = 0; k < 20000; ++k) {
-        const auto vector = [&] { return Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - .5; };
-        const Ray ray{1.5 * vector(), vector()};
-        const auto a = flat.tracer->closest(ray), b = tree.tracer->closest(ray);
-        REQUIRE(a.has_value() == b.has_value());
-        if (a)
-            CHECK((a->facet == b->facet && a->t == b->t && a->u == b->u && a->v == b->v));
-        CHECK(flat.tracer->count(ray) == tree.tracer->count(ray));
-        CHECK(flat.tracer->occluded(ray, 0) == tree.tracer->occluded(ray, 0));
-    }
-}
-
-TEST_CASE("Vertices that no facet uses are dropped") {
-    const Scene scene = grey_cube();
-    Scene untidy = scene;
-    untidy.vertices.insert(untidy.vertices.begin() + 3, {{9, 9, 9}, {8, 8, 8}});
-    untidy.vertices.push_back({7, 7, 7});
-    for (Facet& facet : untidy.facets)
-        for (std::uint32_t& v : facet.vertex)
-            v += v < 3 ? 0 : 2;
-    drop_unused_vertices(untidy);
-    CHECK(untidy.vertices == scene.vertices);
-    for (std::size_t f = 0; f < scene.facets.size(); ++f)
-        CHECK(untidy.facets[f].vertex == scene.facets[f].vertex);
 }
 
 TEST_CASE("A channel is solved unless another is the same in all materials in use, or it is dark") {

@@ -38,7 +38,7 @@ struct Model {
               scene.panes = std::make_shared<const std::vector<Pane>>(panes);
               return Mesh(std::move(scene));
           }()),
-          made(make_tracer(mesh, needs_tree(mesh))) {}
+          made(make_tracer(mesh)) {}
     [[nodiscard]] const Tracer& tracer() const { return *made.tracer; }
 };
 

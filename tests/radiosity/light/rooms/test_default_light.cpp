@@ -43,8 +43,7 @@ Scene placed(Scene scene, const Placing& placing) {
 
 struct Looked {
     explicit Looked(const Scene& scene)
-        : mesh(scene), made(make_tracer(mesh, needs_tree(mesh))),
-          free(find_free_space(mesh, *made.tracer)) {}
+        : mesh(scene), made(make_tracer(mesh)), free(find_free_space(mesh, *made.tracer)) {}
     [[nodiscard]] DefaultLight light(int up) const {
         return choose_default_light(mesh, *made.tracer, free, up);
     }

@@ -1,6 +1,7 @@
 #include "radiosity/engine/factors/pairs/free_exchange.h"
 
 #include "geometry/elementary.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -135,6 +136,14 @@ FacePlane face_plane(const Polygon& shape) {
     for (const Vec3& corner : shape.corner)
         face.radius = std::max(face.radius, glm::distance(corner, face.centre));
     return face;
+}
+
+std::vector<FacePlane> face_planes(const Mesh& mesh) {
+    std::vector<FacePlane> faces;
+    faces.reserve(mesh.patches().size());
+    for (const Patch& patch : mesh.patches())
+        faces.push_back(face_plane(patch.shape));
+    return faces;
 }
 
 Facing facing(const FacePlane& a, const FacePlane& b, double rounding) {

@@ -10,8 +10,11 @@
 #include "radiosity/engine/factors/pairs/convex_part.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace hemilux {
+
+class Mesh;
 
 /// The side of a patch, with what integrals over it need.
 struct FacePlane {
@@ -22,6 +25,8 @@ struct FacePlane {
     double radius = 0; ///< largest distance of a corner from the centre
 };
 [[nodiscard]] FacePlane face_plane(const Polygon& shape);
+/// Returns those of all patches.
+[[nodiscard]] std::vector<FacePlane> face_planes(const Mesh& mesh);
 
 /// This says how two sides stand to each other.
 enum class Facing : std::uint8_t {

@@ -48,7 +48,7 @@ PairRays::Share PairRays::share(std::size_t begin, std::size_t end) const {
         share.squares += kernel_[k] * kernel_[k];
         if (blocked_[k])
             continue;
-        share.seen += kernel_[k];
+        share.seen += kernel_[k] * tracer_.passed(rays_[k]);
         ++share.arrived;
     }
     return share;

@@ -22,7 +22,7 @@ class PairRays {
     [[nodiscard]] std::size_t size() const { return rays_.size(); }
 
     struct Share {
-        double seen = 0, all = 0; ///< sums of the kernel over rays, in one unit
+        double seen = 0, all = 0; ///< sums of the kernel over rays, in one unit; panes dim `seen`
         double squares = 0;       ///< sum of the squares of the kernel over rays
         std::uint32_t rays = 0, arrived = 0;
     };

@@ -17,7 +17,9 @@ constexpr double exact_error = 1e-10;
 constexpr double closed = 2e-15;
 
 constexpr int max_rounds = 40;
-constexpr int max_iterations = 400;
+/// Row sums that are off by no more are solved also where the iterations see only rounding errors
+/// [-].
+constexpr double rounding_of_sums = 1e-12;
 
 /// The system of the rows' multipliers.
 class Rows {
@@ -29,7 +31,8 @@ class Rows {
             variance_[i].reserve(list.pairs[i].size());
             for (const PairExchange& pair : list.pairs[i]) {
                 const double least = exact_error * std::min(list.area[i], list.area[pair.to]);
-                const double deviation = std::max(double(pair.deviation), least);
+                const bool is_unfound = list.has_all_pairs && !(pair.exchange > 0);
+                const double deviation = is_unfound ? 0 : std::max(double(pair.deviation), least);
                 variance_[i].push_back(deviation * deviation);
             }
         }
@@ -40,11 +43,12 @@ class Rows {
             }
         find_lacking();
         find_diagonal();
-        free_unseen_openings(rays);
+        free_unfound(rays);
     }
 
     void audit_before(ClosingAudit& audit) const;
-    void solve_and_move();
+    /// Returns false where the iterations ended at their limit.
+    [[nodiscard]] bool solve_and_move(int max_iterations);
     /// Sets what is negative to 0 for good; returns how many.
     std::uint64_t set_negative_to_zero();
     [[nodiscard]] double worst_lacking() const;
@@ -57,11 +61,12 @@ class Rows {
         return open_variance_[i * opens + k];
     }
     [[nodiscard]] double diagonal(std::size_t i) const { return diagonal_[i]; }
+    [[nodiscard]] double lacking(std::size_t i) const { return lacking_[i]; }
 
   private:
     void find_lacking();
     void find_diagonal();
-    void free_unseen_openings(std::uint32_t rays);
+    void free_unfound(std::uint32_t rays);
     void multiply(std::span<const double> x, std::span<double> y) const;
 
     ExchangeList& list_;
@@ -104,16 +109,31 @@ void Rows::find_diagonal() {
     }
 }
 
-/// Openings that no ray found stay 0, unless their row lacks more than chance explains: then they
-/// may have what half a ray stands for.
-void Rows::free_unseen_openings(std::uint32_t rays) {
+/// What no ray found stays 0, unless its row lacks more than chance explains. Then openings may
+/// have what half a ray stands for; where all pairs are listed, those that are 0 may be more, and
+/// openings that no ray of any row found are left for rows without such pairs.
+void Rows::free_unfound(std::uint32_t rays) {
     constexpr double beyond_chance = 4;
-    for (std::size_t i = 0; i < list_.area.size(); ++i) {
-        if (!(lacking_[i] > beyond_chance * std::sqrt(diagonal_[i])))
-            continue;
+    const std::size_t rows = list_.area.size();
+    std::vector<bool> lacks(rows), has_unfound(rows);
+    std::array<bool, 2> is_found{}; // sky and ground
+    for (std::size_t i = 0; i < rows; ++i) {
+        lacks[i] = lacking_[i] > beyond_chance * std::sqrt(diagonal_[i]);
+        for (std::size_t k = 0; k < is_found.size(); ++k)
+            is_found[k] = is_found[k] || list_.open[i][k].factor > 0;
+    }
+    for (std::size_t i = 0; i < rows && list_.has_all_pairs; ++i)
+        for (std::size_t k = 0; k < list_.pairs[i].size(); ++k) {
+            const PairExchange& pair = list_.pairs[i][k];
+            if (pair.exchange > 0 || !(lacks[i] || lacks[pair.to]))
+                continue;
+            variance_[i][k] = double(pair.deviation) * double(pair.deviation);
+            has_unfound[i] = has_unfound[pair.to] = true;
+        }
+    for (std::size_t i = 0; i < rows; ++i) {
         const double deviation = .5 * list_.area[i] / rays;
-        for (std::size_t k = 0; k < 2; ++k) // sky and ground
-            if (!(list_.open[i][k].factor > 0))
+        for (std::size_t k = 0; k < is_found.size(); ++k)
+            if (lacks[i] && (is_found[k] || !has_unfound[i]) && !(list_.open[i][k].factor > 0))
                 open_variance_[i * opens + k] = deviation * deviation;
     }
     find_diagonal();
@@ -150,10 +170,10 @@ void Rows::audit_before(ClosingAudit& audit) const {
     audit.chance_rms = std::sqrt(chances / static_cast<double>(rows));
 }
 
-void Rows::solve_and_move() {
+bool Rows::solve_and_move(int max_iterations) {
     const std::size_t rows = lacking_.size();
     std::vector<double> multiplier(rows);
-    add_solution(
+    const GradientsEnd end = add_solution(
         diagonal_, lacking_, {.square = 1e-28, .iterations = max_iterations},
         [this](std::span<const double> x, std::span<double> y) { multiply(x, y); }, multiplier);
     for (std::size_t i = 0; i < rows; ++i) {
@@ -165,6 +185,7 @@ void Rows::solve_and_move() {
             pair.exchange += variance_[i][k] * (multiplier[i] + multiplier[pair.to]);
         }
     }
+    return end.converged;
 }
 
 std::uint64_t Rows::set_negative_to_zero() {
@@ -206,7 +227,7 @@ std::vector<std::vector<double>> exchanges_of(const ExchangeList& list) {
 
 } // namespace
 
-ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
+ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row, int max_iterations) {
     ClosingAudit audit;
     const std::vector<std::array<OpenShare, opens>> open_before = list.open;
     const std::vector<std::vector<double>> exchange_before = exchanges_of(list);
@@ -216,8 +237,9 @@ ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
     for (std::size_t i = 0; i < list.area.size(); ++i)
         first_diagonal[i] = rows.diagonal(i);
     double last = 1;
+    bool is_solved = true;
     for (int round = 0; round < max_rounds; ++round) {
-        rows.solve_and_move();
+        is_solved = rows.solve_and_move(max_iterations);
         const std::uint64_t negative = rows.set_negative_to_zero();
         audit.set_to_zero += negative;
         rows.update();
@@ -227,6 +249,11 @@ ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
         last = negative == 0 ? worst : 1;
     }
     audit.left_worst = rows.worst_lacking();
+    if (!is_solved && audit.left_worst > rounding_of_sums)
+        audit.unsolved = audit.left_worst;
+    const auto unsolved_of = [&](std::size_t i) {
+        return audit.unsolved > 0 ? std::abs(rows.lacking(i)) : 0;
+    };
     // The rest of a row says of one pair in it what is left of the row's sum, with the variance of
     // the rest. What is not listed is a part of that.
     const auto rest_of = [&](std::size_t i, double variance) {
@@ -255,7 +282,8 @@ ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
             if (variance > 0)
                 list.open[i][k].standard_error =
                     elementary::hypot(remaining(variance, variance / all) / list.area[i],
-                                      variance / all * list.unlisted[i]);
+                                      variance / all * list.unlisted[i]) +
+                    unsolved_of(i) / list.area[i];
         }
         for (std::size_t k = 0; k < list.pairs[i].size(); ++k) {
             PairExchange& pair = list.pairs[i][k];
@@ -267,8 +295,10 @@ ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row) {
             }
             const double variance = double(pair.deviation) * double(pair.deviation);
             audit.largest_move = std::max(audit.largest_move, moved / double(pair.deviation));
-            pair.deviation = static_cast<float>(std::sqrt(
-                1 / (1 / variance + 1 / rest_of(i, variance) + 1 / rest_of(pair.to, variance))));
+            const double left = std::sqrt(
+                1 / (1 / variance + 1 / rest_of(i, variance) + 1 / rest_of(pair.to, variance)));
+            pair.deviation =
+                static_cast<float>(left + std::max(unsolved_of(i), unsolved_of(pair.to)));
         }
     }
     return audit;

@@ -22,15 +22,19 @@ struct ClosingAudit {
     std::uint32_t worst_row = 0;
     /// The same in units of what the standard errors let expect: about 1 by chance.
     double chance_rms = 0, chance_worst = 0;
-    double largest_move = 0;              ///< of a factor that was sampled, in standard errors
-    double largest_exact_move = 0;        ///< of an exact factor [-]
-    double left_worst = 0;                ///< of row sums afterwards [-]
+    double largest_move = 0;       ///< of a factor that was sampled, in standard errors
+    double largest_exact_move = 0; ///< of an exact factor [-]
+    double left_worst = 0;         ///< of row sums afterwards [-]
+    /// The same where the iterations ended at their limit, else 0. The errors of what may be moved
+    /// in a row then hold what its sum is off by.
+    double unsolved = 0;
     std::uint64_t set_to_zero = 0;        ///< factors
     std::uint64_t rows_beyond_chance = 0; ///< rows that lacked more than five standard errors
 };
 
-/// Closes all rows. The deviations become those after the change, which are smaller. Rows of
-/// patches that see nothing at all stay as they are.
-ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row);
+/// Closes all rows, by so many iterations a round at most. The deviations become those after the
+/// change, which are smaller. Rows of patches that see nothing at all stay as they are.
+[[nodiscard]] ClosingAudit close_rows(ExchangeList& list, std::uint32_t rays_of_row,
+                                      int max_iterations = 400);
 
 } // namespace hemilux

@@ -23,6 +23,9 @@ struct ExchangeList {
     std::vector<std::vector<PairExchange>> pairs; ///< those of higher index, ascending
     std::vector<std::array<OpenShare, opens>> open;
     std::vector<OpenShare> bands; ///< of the sky, by patch and band; empty: none are asked for
+    /// Whether pairs are listed, too, of which no ray arrived: nothing else that is not exact
+    /// exchanges light. The exchange of these is 0, and their deviation is what it may be.
+    bool has_all_pairs = false;
     /// The sum of the row's factors that are not listed [-]: as expected, and a bound for 95 % of
     /// all rows.
     std::vector<double> unlisted, unlisted_bound;

@@ -5,6 +5,7 @@
 #include "radiosity/engine/factors/rows/rows_done.h"
 #include "radiosity/engine/factors/rows/seen_pairs.h"
 #include "radiosity/engine/factors/rows/sky_bands.h"
+#include "radiosity/engine/rays/panes.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 
@@ -72,19 +73,20 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
     const std::size_t patches = mesh.patches().size();
     FoundExchange found;
     ExchangeList& list = found.list;
-    std::vector<FacePlane> faces;
-    faces.reserve(patches);
-    for (const Patch& patch : mesh.patches()) {
-        faces.push_back(face_plane(patch.shape));
+    const std::vector<FacePlane> faces = face_planes(mesh);
+    for (const Patch& patch : mesh.patches())
         list.area.push_back(patch.area);
-    }
+    list.has_all_pairs = options.free_pairs != nullptr;
     list.open.resize(patches);
     const std::size_t bands = options.bands ? options.bands->size() : 0;
     list.bands.resize(patches * bands);
     PairsMemory memory(options.ask);
     std::vector<std::vector<SeenPatch>> seen_patches(patches);
     const FacingBacks backs(mesh);
-    const RowScene scene{mesh, tree, backs, options.seed, options.up, options.bands};
+    const Tracer& tracer = options.through_panes ? *options.through_panes : tree;
+    const std::vector<Polygon> panes =
+        options.through_panes ? local_panes(mesh) : std::vector<Polygon>{};
+    const RowScene scene{mesh, tracer, backs, options.seed, options.up, options.bands};
     found.is_void = !trace_all_rows(
         scene, options.rays, "finding pairs", workers, monitor,
         [&](std::uint32_t i, const RowView& view) {
@@ -98,7 +100,7 @@ FoundExchange find_exchange(const Mesh& mesh, const WideBvh& tree, const Exchang
         return found;
     const std::vector<std::vector<SeenPair>> seen = pairs_of(std::move(seen_patches));
     const FacingPatches groups(faces);
-    const PairSearch search{mesh, tree, options, faces, groups, seen};
+    const PairSearch search{mesh, tree, tracer, panes, options, faces, groups, seen};
     std::vector<MeasuredRow> rows(patches);
     if (options.load)
         options.load(rows);

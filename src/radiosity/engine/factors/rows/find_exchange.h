@@ -9,6 +9,7 @@
 
 #include "bvh/wide/wide_bvh.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/factors/pairs/free_pairs.h"
 #include "radiosity/engine/factors/rows/exchange_list.h"
 #include "radiosity/engine/factors/rows/measured_rows.h"
 
@@ -41,6 +42,13 @@ struct ExchangeOptions {
     std::uint64_t seed = 1;
     int up = 2;                      ///< axis that points to the sky
     const SkyBands* bands = nullptr; ///< parts of the sky, if they are asked for
+    /// The free pairs of the mesh: if they are given, those that are clear are left out of the
+    /// list, and all others are in it, each right on average whether rays of its patches met the
+    /// other or not. So the mean over seeds is right, and what few rays find of a pair may be far
+    /// off.
+    const FreePairs* free_pairs = nullptr;
+    /// Traces light through the panes of the scene; null: panes do not count.
+    const Tracer* through_panes = nullptr;
     /// Tolerances of passes over all pairs before that of `tolerance`, as multiples of it: what the
     /// end of the time leaves of the last pass is as exact as the one before.
     std::vector<double> before = {};

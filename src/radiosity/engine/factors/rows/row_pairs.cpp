@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace hemilux {
 namespace {
@@ -14,7 +15,8 @@ namespace {
 constexpr std::uint32_t min_probes = 1, max_probes = 32;
 
 /// A pair that needs no more rays than these is estimated by rays alone; so many are the least.
-constexpr double max_pair_rays = 24;
+/// Light through panes is always estimated by rays, by so many at most.
+constexpr double max_pair_rays = 24, max_rays_through_panes = 4096;
 constexpr std::uint32_t min_pair_rays = 4;
 
 /// Rays of pairs of one row that are traced together.
@@ -22,6 +24,15 @@ constexpr std::size_t pair_rays_at_a_time = 65'536;
 
 /// Pairs whose factors are this share of their tolerance are not looked for.
 constexpr double smallest_searched = .6;
+
+/// A line says as much as so many rays.
+constexpr double rays_of_line = 4;
+
+void count_lines(const PairEstimate& found, PairWork& work) {
+    work.lines += found.lines;
+    ++(found.lines > 0 ? work.line_pairs : work.exact_pairs);
+    work.clear_pairs += found.is_clear ? 1 : 0;
+}
 
 } // namespace
 
@@ -44,6 +55,8 @@ double RowPairs::missed_chance(std::uint32_t i, const Candidate& pair, double ex
 void RowPairs::look_for(std::uint32_t i) {
     candidates_.clear();
     unseen_.clear();
+    if (options_.free_pairs)
+        return list_hidden(i);
     const FacePlane& face = faces_[i];
     const auto add = [&](std::uint32_t j, std::vector<Candidate>& list, std::uint32_t least) {
         const std::uint32_t probes = probes_of(exchange_bound(face, faces_[j]), tolerance(i, j, 0));
@@ -51,7 +64,7 @@ void RowPairs::look_for(std::uint32_t i) {
             return;
         const Facing facing = hemilux::facing(face, faces_[j], HiddenExchange::plane_rounding);
         if (facing != Facing::never)
-            list.push_back({j, facing, probes});
+            list.push_back({j, facing, probes, 0, 0});
     };
     for (const SeenPair& pair : seen_[i]) {
         is_seen_[pair.to] = true;
@@ -64,6 +77,36 @@ void RowPairs::look_for(std::uint32_t i) {
                      });
     for (const SeenPair& pair : seen_[i])
         is_seen_[pair.to] = false;
+}
+
+/// Lists those of higher index that face the patch and are not clear.
+void RowPairs::list_hidden(std::uint32_t i) {
+    auto seen = seen_[i].begin();
+    for (const FreePair& pair : options_.free_pairs->rows[i]) {
+        if (pair.is_clear)
+            continue;
+        while (seen != seen_[i].end() && seen->to < pair.to)
+            ++seen;
+        const bool is_seen = seen != seen_[i].end() && seen->to == pair.to;
+        const Facing facing =
+            hemilux::facing(faces_[i], faces_[pair.to], HiddenExchange::plane_rounding);
+        candidates_.push_back({pair.to, facing, 0, pair.exchange, is_seen ? seen->rays : 0});
+    }
+}
+
+/// Returns the mean of what rays of both patches and rays or lines between them say of a pair, of
+/// which a share was seen. The weights do not depend on what either met: so it is right on average.
+/// `variance` is that of the share, `rays` so many independent ones with the same.
+PairExchange RowPairs::pooled(std::uint32_t i, const Candidate& pair, double share, double variance,
+                              double rays) const {
+    // If nothing hid a part so many rays of both patches would have hit the other.
+    const double hits = options_.rays * pair.free * (1 / faces_[i].area + 1 / faces_[pair.to].area);
+    const double all = hits + rays;
+    const double seen = (pair.hits + rays * share) / all;
+    const double p = (all * std::min(seen, 1.0) + .5) / (all + 1);
+    const double deviation =
+        elementary::hypot(std::sqrt(p * (1 - p) * hits), rays * std::sqrt(variance)) / all;
+    return {pair.to, static_cast<float>(pair.free * deviation), pair.free * seen};
 }
 
 /// Adds those of the unseen that a few rays see after all.
@@ -113,6 +156,14 @@ void RowPairs::trace_small(std::uint32_t i, MeasuredRow& row) {
         // side.
         const double n = share.squares > 0 ? share.all * share.all / share.squares : 0;
         const double p = (n * seen + .5) / (n + 1);
+        if (options_.free_pairs) {
+            // The ratio to the whole kernel of so few rays would not be right on average.
+            const double areas = faces_[i].area * faces_[pair.to].area;
+            const double of_free =
+                share.seen * areas / (std::numbers::pi * small.rays * small.free);
+            pair = pooled(i, small.pair, of_free, p * (1 - p) / (n + 1), small.rays);
+            return;
+        }
         const double exchange = small.free * (share.arrived > 0 ? seen : p);
         const double deviation = small.free * std::sqrt(p * (1 - p) / (n + 1));
         // Divided by the chance that it was found, the sum over all pairs like it is right on
@@ -134,26 +185,40 @@ void RowPairs::trace_small(std::uint32_t i, MeasuredRow& row) {
 void RowPairs::estimate(std::uint32_t i, const Candidate& candidate, MeasuredRow& row) {
     const std::uint32_t j = candidate.to;
     const FacePlane &a = faces_[i], &b = faces_[j];
-    const double free =
-        free_exchange(a, b, candidate.facing, FreeAccuracy::rough, HiddenExchange::plane_rounding);
+    const auto free_of = [&](FreeAccuracy accuracy) {
+        return candidate.free > 0 ? candidate.free
+                                  : free_exchange(a, b, candidate.facing, accuracy,
+                                                  HiddenExchange::plane_rounding);
+    };
+    const double free = free_of(FreeAccuracy::rough);
     if (!(free > 0))
         return;
-    const double rays = elementary::pow(free / (2 * tolerance(i, j, free)), 1.6);
-    if (rays <= max_pair_rays) {
-        const auto count = std::max(static_cast<std::uint32_t>(std::ceil(rays)), min_pair_rays);
+    const double rays =
+        std::min(elementary::pow(free / (2 * tolerance(i, j, free)), 1.6), max_rays_through_panes);
+    if (rays <= max_pair_rays || hidden_.is_dimmed(a, b, candidate.facing)) {
+        const auto count = std::max(static_cast<std::uint32_t>(std::ceil(rays)),
+                                    options_.free_pairs ? 1 : min_pair_rays);
         rays_.add(a, mesh_.patches()[i].facet, b, mesh_.patches()[j].facet, count,
                   seed_of(i, j, 2));
-        small_.push_back({row.pairs.size(), candidate, free});
+        small_.push_back({row.pairs.size(), count, candidate, free});
         row.pairs.push_back({j, 0, 0});
         row.missed.push_back(0);
         return;
     }
-    const PairEstimate found =
-        hidden_.between(i, a, j, b, candidate.facing, seed_of(i, j, 3),
-                        [&](double exchange) { return tolerance(i, j, exchange); });
-    row.work.lines += found.lines;
-    ++(found.lines > 0 ? row.work.line_pairs : row.work.exact_pairs);
-    row.work.clear_pairs += found.is_clear ? 1 : 0;
+    if (options_.free_pairs) {
+        const PairEstimate found = hidden_.unbiased(i, a, j, b, candidate.facing, free,
+                                                    seed_of(i, j, 3), tolerance(i, j, free));
+        count_lines(found, row.work);
+        const double deviation = found.deviation / free;
+        row.pairs.push_back(
+            pooled(i, candidate, found.share, deviation * deviation, rays_of_line * found.lines));
+        row.missed.push_back(0);
+        return;
+    }
+    const PairEstimate found = hidden_.between(
+        i, a, j, b, candidate.facing, free_of(FreeAccuracy::exact), seed_of(i, j, 3),
+        [&](double exchange) { return tolerance(i, j, exchange); });
+    count_lines(found, row.work);
     if (!(found.exchange > 0))
         return;
     const double missed = missed_chance(i, candidate, found.exchange, found.share);

@@ -19,6 +19,8 @@ namespace hemilux {
 struct PairSearch {
     const Mesh& mesh;
     const WideBvh& tree;
+    const Tracer& tracer;           ///< also of panes
+    std::span<const Polygon> panes; ///< that the tracer dims light by
     const ExchangeOptions& options;
     std::span<const FacePlane> faces; ///< by patch
     const FacingPatches& groups;
@@ -31,8 +33,9 @@ class RowPairs {
     /// Tolerances are `scale` times those of the options.
     RowPairs(const PairSearch& search, double scale)
         : mesh_(search.mesh), options_(search.options), faces_(search.faces),
-          groups_(search.groups), seen_(search.seen), scale_(scale), rays_(search.tree),
-          probes_(search.tree), hidden_(search.mesh, search.tree), is_seen_(faces_.size()) {}
+          groups_(search.groups), seen_(search.seen), scale_(scale), rays_(search.tracer),
+          probes_(search.tracer), hidden_(search.mesh, search.tree, search.panes),
+          is_seen_(faces_.size()) {}
 
     /// Measures the pairs of a patch with those of higher index.
     void measure(std::uint32_t i, MeasuredRow& row);
@@ -42,14 +45,20 @@ class RowPairs {
         std::uint32_t to;
         Facing facing;
         std::uint32_t probes; ///< rays that look for it where no ray of a row found it
+        double free;          ///< the free exchange, exactly; 0: not known yet
+        std::uint32_t hits;   ///< rays of either patch that hit the other, if `free` is known
     };
     /// A pair that is estimated by rays alone.
     struct Small {
         std::size_t place; ///< in the row's pairs
+        std::uint32_t rays;
         Candidate pair;
         double free;
     };
     void look_for(std::uint32_t i);
+    void list_hidden(std::uint32_t i);
+    [[nodiscard]] PairExchange pooled(std::uint32_t i, const Candidate& pair, double share,
+                                      double variance, double rays) const;
     void probe(std::uint32_t i, MeasuredRow& row);
     [[nodiscard]] std::uint32_t probes_of(double bound, double tolerance) const;
     /// Returns the chance that a pair was found by no ray.

@@ -2,7 +2,7 @@
 // pixels miss, and the methods that solve with them.
 #include "geometry/compensated_sum.h"
 #include "radiosity/engine/factors/points/hemicube.h"
-#include "radiosity/engine/form_factors/exact_form_factors.h"
+#include "radiosity/engine/form_factors/closed_form_factors.h"
 #include "radiosity/engine/form_factors/factor_options.h"
 #include "radiosity/engine/solving/own_options.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -218,11 +218,12 @@ TEST_CASE("More pixels bring factors nearer to the exact ones, until the centre 
     const test::Model model(test::cube_with_lit_floor(3, .5));
     const Workers workers(2);
     Monitor monitor;
-    SampledFormFactors samples(model.mesh, model.bvh, {}, 1);
-    samples.trace_up_to(1, workers, monitor);
-    const ExactFormFactors exact(model.mesh, workers, monitor);
-    REQUIRE(exact.sampled_pairs() == 0);
-    const SparseMatrix truth = exact.matrix(samples);
+    const ClosedFormFactors exact(model.mesh, model.bvh, workers, monitor);
+    REQUIRE(exact.other_pairs() == 0);
+    const SparseMatrix truth =
+        exact.batch(1, ClosedFormFactors::min_rays, relative_above(.01, 1e-3), workers, monitor)
+            .value()
+            .matrix;
     std::vector<double> error;
     for (const std::uint32_t edge : {4u, 16u, 64u, 128u})
         error.push_back(rms_error(model, truth, edge));
