@@ -68,8 +68,8 @@ py::dict result_of(const PythonMesh& mesh, const SolveSettings& settings, RunRes
     return result;
 }
 
-py::dict solve(const PythonMesh& mesh, const std::string& method, const RunNumbers& numbers,
-               const std::optional<Doubles>& reference, const py::object& progress) {
+py::dict solve_mesh(const PythonMesh& mesh, const std::string& method, const RunNumbers& numbers,
+                    const std::optional<Doubles>& reference, const py::object& progress) {
     const SolveSettings settings = settings_of(method_named(method), numbers);
     const std::span<const Vec3> known = reference ? rows_of(*reference) : std::span<const Vec3>{};
     Monitor monitor;
@@ -103,7 +103,7 @@ void add_solve(py::module_& module) {
         .def_readwrite("seed", &RunNumbers::seed)
         .def_readwrite("threads", &RunNumbers::threads)
         .def_readwrite("own", &RunNumbers::own);
-    module.def("solve", &solve);
+    module.def("solve", &solve_mesh);
     module.def("methods", &described_methods);
 }
 
