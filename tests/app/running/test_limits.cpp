@@ -1,5 +1,6 @@
 // --time and --memory hold whatever else is asked for.
 #include "app/program.h"
+#include "radiosity/engine/solving/method.h"
 #include "support/catch.h"
 
 #include <cmath>

@@ -105,9 +105,9 @@ void go_on(Run& run, const StopRule& stop, RunWatcher& watcher) {
         watcher.step_done(record, solution);
     };
     const auto useful = [&](const Solution& solution) { return watcher.is_useful(solution); };
+    const Before before = run.before; // which each step changes
     try {
-        run.completed =
-            hemilux::run(*run.solver, run.input(), stop, after_step, run.before, useful);
+        run.completed = hemilux::run(*run.solver, run.input(), stop, after_step, before, useful);
     } catch (...) {
         count();
         throw;

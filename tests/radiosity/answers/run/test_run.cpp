@@ -49,6 +49,8 @@ TEST_CASE("a run that goes on has the light of one that took all steps at once")
     CHECK(parts.steps.size() == 4);
     CHECK(parts.solution().radiosity == whole.solution().radiosity);
     CHECK(parts.steps.back().rays == whole.steps.back().rays);
+    CHECK(parts.steps.back().seconds <= parts.seconds);
+    CHECK(parts.before.seconds == parts.steps.back().seconds);
 }
 
 TEST_CASE("a run ends where its watcher finds it useful") {
