@@ -9,6 +9,7 @@
 // Ends with 0, with 1 for wrong arguments, with 2 for input that cannot be solved.
 
 #include "bvh/wide/wide_bvh.h"
+#include "io/pictures/picture_files.h"
 #include "io/results/tables.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/answers/pictures/render.h"
