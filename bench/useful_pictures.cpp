@@ -11,7 +11,7 @@
 // the details.
 #include "bvh/wide/wide_bvh.h"
 #include "clock.h"
-#include "io/scene_files/camera_text.h"
+#include "io/pictures/camera_text.h"
 #include "io/pictures/picture_files.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/answers/images/ssim.h"

@@ -49,7 +49,7 @@ class PointLight(_Gathered):
     irradiance, standard_error : ndarray of float64, shape (n, 3)
         Light that arrives, and its standard error [W/m2].
     is_known : ndarray of bool, shape (n,)
-        False for points that lie on no face which looks along their normal.
+        False for points that lie on no face where a limit ended the work before.
     """
 
     irradiance: np.ndarray

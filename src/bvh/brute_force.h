@@ -8,7 +8,6 @@ namespace hemilux {
 
 class BruteForce final : public Tracer {
   public:
-    /// The soup's memory must outlive the tracer.
     explicit BruteForce(const FacetSoup& soup) : soup_(soup) {}
 
     [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override;

@@ -101,7 +101,7 @@ class OwnBlocks {
   public:
     /// All blocks but the last are multiples of this, unless their length is given.
     static constexpr std::size_t min_block = 64;
-    /// Divides the items; the ranks outlive this.
+    /// Divides the items.
     OwnBlocks(const Ranks& ranks, std::size_t items)
         : OwnBlocks(ranks, items, usual_block(items / ranks.count())) {}
     OwnBlocks(const Ranks& ranks, std::size_t items, std::size_t block)

@@ -59,8 +59,7 @@ class Command {
   public:
     explicit Command(CLI::App& app, std::string_view heading = {})
         : app_(&app), heading_(heading) {}
-    /// Returns the same command, whose options that are added stand under a heading of --help. The
-    /// text of the heading outlives it.
+    /// Returns the same command, whose options that are added stand under a heading of --help.
     [[nodiscard]] Command under(std::string_view heading) const { return Command(*app_, heading); }
     /// Adds an option. `read` gets all values that were given, and throws UsageError for those that
     /// it refuses.

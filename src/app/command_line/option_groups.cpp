@@ -1,5 +1,5 @@
 #include "app/command_line/option_groups.h"
-#include "io/scene_files/camera_text.h"
+#include "io/pictures/camera_text.h"
 #include "radiosity/answers/images/tone.h"
 
 #include "app/command_line/option_kinds.h"

@@ -32,7 +32,7 @@ struct MethodRuns {
     std::vector<Vec3> radiosity; ///< light at the end of the first run that has a step [W/m2]
 };
 
-/// The things that the runs have in common; what they refer to outlives them.
+/// The things that the runs have in common.
 struct Comparison {
     const Mesh& mesh;
     const Tracer& tracer;

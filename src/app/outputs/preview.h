@@ -19,7 +19,7 @@ struct Solution;
 /// with the rows that are gathered. The first one is written after a second of processor time, or
 /// when the gathering of a picture that is not small begins. Each takes its share of the time: the
 /// next one waits for many times as long as it took. What the run writes in the end does not depend
-/// on it. The settings and the flag outlive this.
+/// on it.
 class Preview {
   public:
     /// Does nothing unless the settings ask for it or a terminal shows the run.

@@ -15,7 +15,6 @@ namespace hemilux {
 /// no ray has met as a ray brings. What patches leave out is no part of it.
 class UsefulPicture {
   public:
-    /// The mesh and the tracer must outlive this object.
     UsefulPicture(const SolveSettings& settings, const Mesh& mesh, const Tracer& tracer)
         : mesh_(mesh), tracer_(tracer), view_(settings.view), threads_(settings.options.threads),
           seed_(settings.options.seed) {}

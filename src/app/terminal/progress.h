@@ -49,7 +49,7 @@ using ShareDone = std::function<double(const ProgressState&)>;
 
 class Progress {
   public:
-    /// Begins the display, where there is a bar. The monitor outlives this.
+    /// Begins the display, where there is a bar.
     Progress(const Monitor& monitor, ShareDone share, bool bar);
 
     void step_done(const StepRecord& record);

@@ -23,7 +23,7 @@ namespace hemilux {
 class Stage {
   public:
     Stage(std::string name, Verbosity verbosity);
-    /// Shows how much of it is done besides, and how long the rest takes. The share outlives this.
+    /// Shows how much of it is done besides, and how long the rest takes.
     Stage(std::string name, Verbosity verbosity, const std::atomic<double>& share);
     /// Shows the monitor's phases, one after the other, each with its share and its time.
     Stage(const Monitor& monitor, Verbosity verbosity);

@@ -19,8 +19,7 @@ struct WideBvhOptions {
 
 class WideBvh final : public Tracer {
   public:
-    /// The soup's memory must outlive the tracer. Facets with a coordinate that is not finite are
-    /// never hit.
+    /// Facets with a coordinate that is not finite are never hit.
     explicit WideBvh(const FacetSoup& soup, const WideBvhOptions& options = {});
 
     [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override;

@@ -17,7 +17,7 @@ inline constexpr const char* outside_warning = " lies outside the scene's folder
 
 class OutsideFiles {
   public:
-    /// `scene` is the path of the file that names others. `warnings` must outlive this object.
+    /// `scene` is the path of the file that names others.
     OutsideFiles(std::string scene, Outside rule, std::vector<std::string>& warnings)
         : scene_(std::move(scene)), rule_(rule), warnings_(warnings) {}
 

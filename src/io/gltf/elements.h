@@ -14,7 +14,6 @@ namespace hemilux::gltf {
 /// The buffers, each read when it is first asked for.
 class Buffers {
   public:
-    /// All arguments must outlive this object.
     Buffers(const Document& document, const Container& container, const std::string& path,
             const ReadGuard& guard, OutsideFiles& outside)
         : document_(document), container_(container), path_(path), guard_(guard), outside_(outside),
@@ -52,8 +51,7 @@ class Buffers {
 /// The elements of an accessor, normalized where it says so.
 class Elements {
   public:
-    /// Throws InputError, also where the indices of sparse elements do not ascend. The buffers must
-    /// outlive this object.
+    /// Throws InputError, also where the indices of sparse elements do not ascend.
     Elements(Buffers& buffers, std::size_t accessor);
 
     [[nodiscard]] std::size_t size() const { return accessor_.count; }

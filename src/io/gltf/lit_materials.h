@@ -16,8 +16,7 @@ namespace hemilux::gltf {
 
 class LitMaterials {
   public:
-    /// `primitive_of` returns the primitive that is written for an origin. All must outlive this
-    /// object.
+    /// `primitive_of` returns the primitive that is written for an origin.
     LitMaterials(OpenDocument& document, const LitSource& source, const LightmapOfFile& lightmap,
                  std::function<Json&(const PrimitiveOrigin&)> primitive_of)
         : document_(document), source_(source), lightmap_(lightmap),

@@ -28,7 +28,6 @@ struct Triangles {
 
 class TriangleReader {
   public:
-    /// The buffers must outlive this object.
     explicit TriangleReader(Buffers& buffers) : buffers_(buffers) {}
 
     /// Reads the triangles, with coordinates of the sets from 0 to the one before `texcoord_sets`,

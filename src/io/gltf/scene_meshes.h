@@ -24,8 +24,7 @@ struct MeshTally {
 
 class SceneMeshes {
   public:
-    /// All arguments must outlive this object. The materials of the document are in the scene
-    /// already, with their textures.
+    /// The materials of the document are in the scene already, with their textures.
     SceneMeshes(Buffers& buffers, const TextureMaps& maps, ReadResult& result)
         : document_(buffers.document()), path_(buffers.path()), maps_(maps), triangles_(buffers),
           result_(result) {}

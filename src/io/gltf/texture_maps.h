@@ -13,7 +13,6 @@ namespace hemilux::gltf {
 
 class TextureMaps {
   public:
-    /// Both must outlive this object.
     TextureMaps(Buffers& buffers, const ReadGuard& guard) : buffers_(buffers), files_(guard) {}
 
     /// Reads the textures of a material of the document, the scene's material of the same number.

@@ -54,7 +54,7 @@ struct ObjContents {
 
 class ObjStatements {
   public:
-    /// All arguments must outlive this object. `path` is for messages.
+    /// `path` is for messages.
     ObjStatements(const std::string& path, bool textures, MaterialTable& materials,
                   ObjContents& contents)
         : path_(path), textures_(textures), materials_(materials), contents_(contents) {}

@@ -1,9 +1,9 @@
 // A mesh whose patches were divided differently is written without T-junctions.
-#include "geometry/convex_triangles.h"
 #include "io/meshes/ply.h"
 #include "io/meshes/vtu.h"
 #include "radiosity/answers/charts/charts.h"
 #include "radiosity/answers/vertices/baked_light.h"
+#include "radiosity/answers/vertices/convex_triangles.h"
 #include "radiosity/engine/cells/refine.h"
 #include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/paper/sampling/rng.h"

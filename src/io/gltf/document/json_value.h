@@ -18,7 +18,7 @@ namespace hemilux::gltf {
 /// The bound of a whole number that may be any: doubles hold all up to it.
 inline constexpr std::size_t no_limit = std::size_t{1} << 53;
 
-/// A value within a document, which must outlive it.
+/// A value within a document.
 class JsonValue {
   public:
     JsonValue(const nlohmann::json& node, const std::string& file, std::string path)

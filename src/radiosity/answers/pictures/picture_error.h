@@ -53,7 +53,7 @@ class PictureJudge {
                                                           std::uint64_t seed)>;
 
     /// With `only_reflected`, pictures show no light that arrives straight from where it is
-    /// emitted. All that is referred to must outlive this object.
+    /// emitted.
     PictureJudge(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light, Choice choice,
                  std::uint64_t seed, bool only_reflected = false, double sigmas_of_bound = 1)
         : mesh_(mesh), tracer_(tracer), light_(light), choice_(std::move(choice)), seed_(seed),

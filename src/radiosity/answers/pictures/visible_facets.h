@@ -35,8 +35,7 @@ inline constexpr std::uint32_t nothing_visible = 0xffffffff;
 
 class VisibleFacets {
   public:
-    /// `offsets` are those of the sets of samples within a pixel, from 0 to 1. All arguments must
-    /// outlive this object.
+    /// `offsets` are those of the sets of samples within a pixel, from 0 to 1.
     VisibleFacets(const Mesh& mesh, const CameraRays& camera, const SampleGrid& grid,
                   std::span<const Vec2> offsets, unsigned threads);
 

@@ -17,7 +17,7 @@ namespace hemilux {
 class Mesh;
 struct Monitor;
 
-/// What factors are computed of; all of it but the values outlives the run.
+/// What factors are computed of.
 struct FactorScene {
     const Mesh& mesh;
     const WideBvh& tree; ///< tree of the mesh

@@ -1,9 +1,9 @@
 #include "radiosity/answers/vertices/smooth.h"
 
 #include "bvh/tracer.h"
-#include "geometry/convex_triangles.h"
 #include "geometry/elementary.h"
 #include "geometry/numeric.h"
+#include "radiosity/answers/vertices/convex_triangles.h"
 #include "radiosity/answers/vertices/corner_meetings.h"
 #include "radiosity/light/cached_light/patch_light.h"
 #include "radiosity/paper/scene/mesh.h"

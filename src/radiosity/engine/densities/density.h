@@ -57,8 +57,7 @@ class DensityMap final : public LeafDensities {
   public:
     /// Shoots the density rays from every patch centre. A triangle whose mean exceeds the threshold
     /// is divided, down to the hemisphere's depth. Counts saturate at 255. Patches that never hold
-    /// power have no hemisphere: they must not be asked for. `hemisphere` and `needs` must outlive
-    /// this object.
+    /// power have no hemisphere: they must not be asked for.
     DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere& hemisphere,
                double threshold, const Workers& workers, Monitor& monitor,
                const Needs& needs = everything_needed,

@@ -20,7 +20,7 @@ class LevelCounts {
   public:
     using Counts = std::vector<std::uint8_t>; ///< of one patch, by vertex of the hemisphere
 
-    /// `directions`: those of the rays in the frame of a patch, by vertex. All must outlive this.
+    /// `directions`: those of the rays in the frame of a patch, by vertex.
     LevelCounts(const Hemisphere& hemisphere, std::span<const Vec3> directions, double threshold,
                 const Tracer& tracer)
         : hemisphere_(hemisphere), directions_(directions), threshold_(threshold), tracer_(tracer) {

@@ -33,7 +33,7 @@ class Subdivision1997 {
     static constexpr std::array<std::uint32_t, 7> estimated_choices{0, 1, 2, 3, 4, 5, 6};
     static constexpr std::array<std::uint32_t, 4> part_choices{1, 4, 16, 64};
 
-    /// Checks the options. Nothing is counted yet. `mesh` must outlive this object.
+    /// Checks the options. Nothing is counted yet.
     Subdivision1997(const Mesh& mesh, const Needs& needs, const Subdivision1997Options& options);
 
     /// Finds the directions of all triangles up to this level, as far as they are to be stored, and

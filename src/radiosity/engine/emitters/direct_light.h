@@ -33,8 +33,7 @@ struct Monitor;
 class DirectLight {
   public:
     /// Makes an estimate for each seed. `emitters` are patches, in their order; those of a facet
-    /// are either all among them or none. What is referred to must outlive this object. Each of the
-    /// ranks traces the rays of its patches.
+    /// are either all among them or none. Each of the ranks traces the rays of its patches.
     DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
                 std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds,
                 const Ranks& ranks = one_rank());

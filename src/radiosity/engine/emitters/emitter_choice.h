@@ -28,7 +28,7 @@ struct Patch;
 
 class EmitterChoice {
   public:
-    /// `emitters` are what emits; they and the mesh must outlive this object.
+    /// `emitters` are what emits.
     EmitterChoice(const Mesh& mesh, std::span<const Patch> emitters);
 
     /// This is what a patch weighs: emitters or clusters, and running sums of their weights.

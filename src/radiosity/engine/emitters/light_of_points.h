@@ -28,8 +28,7 @@ struct Monitor;
 /// Several estimates of this light at once, independent of each other.
 class LightOfPoints {
   public:
-    /// Makes an estimate for each seed. What is referred to must outlive this object. Each of the
-    /// ranks traces the rays of its patches.
+    /// Makes an estimate for each seed. Each of the ranks traces the rays of its patches.
     LightOfPoints(const Mesh& mesh, const Tracer& tracer, std::vector<std::uint64_t> seeds,
                   const Ranks& ranks = one_rank());
 

@@ -38,7 +38,7 @@ struct WeighedEmitters {
 
 class ReachedEmitters {
   public:
-    /// Takes the small emitters of a mesh (small_emitters.h), which must outlive this object.
+    /// Takes the small emitters of a mesh (small_emitters.h).
     explicit ReachedEmitters(const Mesh& mesh);
 
     /// Takes these emitters; those of a facet are either all among them or none.

@@ -27,8 +27,7 @@ class ExchangeMatrix {
   public:
     ExchangeMatrix() = default;
     /// Makes the matrix from the rays of one batch. `area` gives the area of each patch in local
-    /// units; it outlives this. All ranks that have rays of the batch call this, as all functions
-    /// that take workers.
+    /// units. All ranks that have rays of the batch call this, as all functions that take workers.
     ExchangeMatrix(std::span<const double> area, const RayCounts& batch,
                    const Workers& workers = Workers(1));
     /// Makes the matrix from several batches, in each of which a patch shot the same number of

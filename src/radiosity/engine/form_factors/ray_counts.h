@@ -21,9 +21,8 @@ struct Monitor;
 
 class RayCounts {
   public:
-    /// Makes counts without rays. Different seeds give independent batches. The mesh, the tracer
-    /// and the ranks outlive this. Each of the ranks traces the rays of its patches and keeps what
-    /// they hit.
+    /// Makes counts without rays. Different seeds give independent batches. Each of the ranks
+    /// traces the rays of its patches and keeps what they hit.
     RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed,
               const Ranks& ranks = one_rank());
 

@@ -31,8 +31,8 @@ struct Monitor;
 class SampledFormFactors {
   public:
     /// Makes factors without rays. The columns of `emitters` are computed in closed form; there may
-    /// be none. The mesh, the tracer and the needs must outlive this. Patches that never hold power
-    /// shoot no rays; their rows come from the rays of others and are not closed.
+    /// be none. Patches that never hold power shoot no rays; their rows come from the rays of
+    /// others and are not closed.
     SampledFormFactors(const Mesh& mesh, const Tracer& tracer, std::vector<std::uint32_t> emitters,
                        std::uint64_t seed, const Needs& needs = everything_needed);
 

@@ -39,7 +39,7 @@ struct ShootingTools {
 
 class Bounces {
   public:
-    /// The tools must outlive this object. It may be used for one step after another.
+    /// It may be used for one step after another.
     explicit Bounces(const ShootingTools& tools)
         : tools_(tools), input_(tools.input), hook_(tools.strategy->step_hook()) {}
 

@@ -40,8 +40,7 @@ struct RaySource {
 /// patch, its number there and its cell, not on what else is listed.
 class GroupedRays {
   public:
-    /// What the source refers to must outlive this object. `memory` holds the rays between two
-    /// calls and may be used again afterwards.
+    /// `memory` holds the rays between two calls and may be used again afterwards.
     GroupedRays(const RaySource& source, std::span<RayGroup> groups, std::uint64_t stream,
                 std::vector<Ray>& memory);
 

@@ -7,7 +7,7 @@
 namespace hemilux {
 
 /// What a flag answers is, while this lives, what all ranks have agreed on last. A single rank
-/// keeps its own flag. The flag and the ranks outlive this.
+/// keeps its own flag.
 class SharedStop {
   public:
     SharedStop(StopFlag& flag, const Ranks& ranks);

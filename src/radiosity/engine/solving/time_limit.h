@@ -10,8 +10,8 @@
 
 namespace hemilux {
 
-/// A limit that, while it lives, makes the flag out of time once `seconds` have passed. Without
-/// a number it does nothing. The flag outlives it.
+/// A limit that, while it lives, makes the flag out of time once `seconds` have passed. Without a
+/// number it does nothing.
 class TimeLimit {
   public:
     TimeLimit(StopFlag& flag, std::optional<double> seconds);

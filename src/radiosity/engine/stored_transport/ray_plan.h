@@ -39,7 +39,7 @@ struct ErrorSoFar {
 class RayPlan {
   public:
     /// Makes a plan from the first step's means, of one batch. `to_emitters` is 0 where there are
-    /// no emitters to be reached. The mesh outlives this.
+    /// no emitters to be reached.
     RayPlan(const Mesh& mesh, const Needs& needs, double random, double to_emitters,
             const RayGoal& goal);
 

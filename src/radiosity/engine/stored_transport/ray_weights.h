@@ -19,7 +19,7 @@ inline constexpr double variance_fall = 1.5;
 
 class RayWeights {
   public:
-    /// Weighs patches by area and reflectance, as long as nothing is known. The mesh outlives this.
+    /// Weighs patches by area and reflectance, as long as nothing is known.
     RayWeights(const Mesh& mesh, const Needs& needs);
 
     // These return, by patch and in any unit, the importance of a cosine-distributed ray and of a

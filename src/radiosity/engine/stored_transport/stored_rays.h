@@ -20,7 +20,7 @@ class StoredRays {
   public:
     static constexpr unsigned batches = BatchLight::batches;
 
-    /// Begins without rays, in generation 0. What the input refers to outlives this.
+    /// Begins without rays, in generation 0.
     explicit StoredRays(const SolverInput& input);
 
     /// Returns the patches whose light comes by shadow rays.
@@ -40,7 +40,7 @@ class StoredRays {
     std::uint64_t trace_up_to(const PlannedRays& rays, double share, const Workers& workers);
 
     /// Returns the factors that the random rays of all batches show. `area` gives the area of each
-    /// patch in local units; it outlives them.
+    /// patch in local units.
     [[nodiscard]] ExchangeMatrix factors(std::span<const double> area,
                                          const Workers& workers) const;
     /// Returns, by patch, whether it is of a part of the scene (linked_parts.h) where a patch emits

@@ -62,7 +62,7 @@ struct ReadError {
 
 class LightCache {
   public:
-    /// `light` is what patches send. All that is referred to must outlive this object.
+    /// `light` is what patches send.
     LightCache(const Mesh& mesh, const Tracer& tracer, PatchLight light)
         : mesh_(mesh), tracer_(tracer), cells_(mesh, light), light_(mesh, light, &cells_) {}
     LightCache(const LightCache&) = delete;

@@ -42,7 +42,6 @@ struct WalkLight {
 
 class Walks {
   public:
-    /// All that is referred to must outlive this object.
     Walks(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light)
         : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh), points_(mesh) {}
 

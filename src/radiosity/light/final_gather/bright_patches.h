@@ -16,8 +16,7 @@ namespace hemilux {
 class BrightPatches {
   public:
     /// Takes the patches that are brightest by their radiosity [W/m2] without what emitters send.
-    /// They cover a sixteenth of all surfaces and are 4096 at most. `mesh` must outlive this
-    /// object.
+    /// They cover a sixteenth of all surfaces and are 4096 at most.
     BrightPatches(const Mesh& mesh, std::span<const Vec3> radiosity,
                   const ReachedEmitters& emitters);
 

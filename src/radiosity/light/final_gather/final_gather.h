@@ -26,7 +26,7 @@ class FinalGather {
     /// The rays of one round: cosine-distributed ones, and up to so many shadow rays.
     static constexpr unsigned usual_random_rays = 16, usual_shadow_rays = 4;
 
-    /// `light` is what surfaces send. All that is referred to must outlive this object.
+    /// `light` is what surfaces send.
     FinalGather(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
                 unsigned random_rays = usual_random_rays, unsigned shadow_rays = usual_shadow_rays)
         : paths_(mesh, tracer, light), random_rays_(random_rays), shadow_rays_(shadow_rays) {}

@@ -46,8 +46,8 @@ struct IndirectLight {
 
 class GatherInParts {
   public:
-    /// `light` is what surfaces send. All that is referred to must outlive this object. With
-    /// `only_reflected` nothing counts that arrives straight from where it is emitted.
+    /// `light` is what surfaces send. With `only_reflected` nothing counts that arrives straight
+    /// from where it is emitted.
     GatherInParts(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light,
                   bool only_reflected = false)
         : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh),

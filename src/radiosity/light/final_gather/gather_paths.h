@@ -41,7 +41,7 @@ struct PathRays {
 
 class GatherPaths {
   public:
-    /// `light` is what surfaces send. All that is referred to must outlive this object.
+    /// `light` is what surfaces send.
     GatherPaths(const Mesh& mesh, const Tracer& tracer, const SurfaceLight& light)
         : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh), points_(mesh) {}
 

@@ -24,8 +24,7 @@ class Workers;
 
 class KnownLight {
   public:
-    /// `accurate` is the radiosity by patch [W/m2]. If it was interrupted, nothing is known. `mesh`
-    /// must outlive this object.
+    /// `accurate` is the radiosity by patch [W/m2]. If it was interrupted, nothing is known.
     KnownLight(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> accurate,
                std::size_t points, std::uint64_t seed, const Workers& workers,
                const StopFlag& interrupted);

@@ -25,7 +25,7 @@ struct FacetSide {
 /// ground below a sun, which hardly any ray by the cosine law does.
 class Targets {
   public:
-    /// Sums the areas of the facets. The mesh outlives this.
+    /// Sums the areas of the facets.
     explicit Targets(const Mesh& mesh);
     /// Returns a ray from a random point of a side to a random target; empty where the target is
     /// behind the side.

@@ -21,7 +21,6 @@ class StateWriter;
 
 class HemisphereImportance {
   public:
-    /// The hemisphere must outlive this object.
     HemisphereImportance(const Hemisphere& hemisphere, std::size_t patches);
 
     /// Adds the sum over hits of value / (rays per area and share), and the number of these hits,

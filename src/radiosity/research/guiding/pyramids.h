@@ -48,8 +48,8 @@ struct Pyramid {
 class PyramidMap final : public LeafDensities {
   public:
     /// A triangle whose pyramid holds more patches than `threshold` is divided, down to the
-    /// hemisphere's depth. `hemisphere` must outlive this object. Patches that never hold power
-    /// have no hemisphere: they must not be asked for.
+    /// hemisphere's depth. Patches that never hold power have no hemisphere: they must not be asked
+    /// for.
     PyramidMap(const Mesh& mesh, const Hemisphere& hemisphere, double threshold,
                const Workers& workers, Monitor& monitor, const Needs& needs = everything_needed);
 

@@ -27,8 +27,7 @@ enum class Refinement { not_needed, done, too_many_links };
 
 class Links {
   public:
-    /// Links all roots that may see each other. `mesh` and `tree` must outlive this object. Throws
-    /// SolveError if there are too many.
+    /// Links all roots that may see each other. Throws SolveError if there are too many.
     Links(const Mesh& mesh, const PatchTree& tree);
 
     /// Divides the links by which more than `max_power` may be reflected, the larger node of each:
@@ -56,7 +55,6 @@ class LinkFactors {
     /// Estimates F_to,from [-] by `points[l]` random pairs of a point of the one and a patch of the
     /// other. Each gives the closed form of point and polygon times the visibility along a ray.
     /// This is unbiased for the mean over the node. It is void if the monitor was interrupted.
-    /// `tree` and `links` must outlive this object.
     LinkFactors(const Mesh& mesh, const Tracer& tracer, const PatchTree& tree, const Links& links,
                 std::span<const std::uint32_t> points, std::uint64_t seed, const Workers& workers,
                 Monitor& monitor);

@@ -19,7 +19,6 @@ namespace hemilux {
 /// The cosine-distributed rays of all patches in independent batches.
 class LostRays {
   public:
-    /// `mesh` and `tracer` must outlive this object.
     LostRays(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed, std::size_t batches);
 
     /// Goes on until all batches together have `rays` per patch, and eight times as many where

@@ -30,7 +30,6 @@ class PatchTree {
         [[nodiscard]] bool is_patch() const { return child == none; }
     };
 
-    /// `mesh` must outlive this object.
     explicit PatchTree(const Mesh& mesh);
 
     /// Returns the nodes, parents before their children.

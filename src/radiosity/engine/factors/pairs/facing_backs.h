@@ -19,7 +19,6 @@ class FacingBacks {
     /// Where the last were found, as neighbours are faced by the same; one for each thread.
     using Last = std::array<std::size_t, 6>; ///< group, by the axis along which a patch faces most
 
-    /// The mesh must outlive this.
     explicit FacingBacks(const Mesh& mesh);
 
     [[nodiscard]] bool face(const Patch& patch, Last& last) const;

@@ -14,7 +14,6 @@ namespace hemilux {
 
 class FacingPatches {
   public:
-    /// The faces, by patch, must outlive this.
     explicit FacingPatches(std::span<const FacePlane> faces);
 
     /// Calls use(j) for patches of higher index than i, in no order. Among them are all that do not

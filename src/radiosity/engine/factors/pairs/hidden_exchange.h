@@ -32,8 +32,8 @@ class HiddenExchange {
     /// A distance from a plane that counts as in it, in the unit of a scene in [-1,1]^3.
     static constexpr double plane_rounding = 1e-9;
 
-    /// All of it must outlive this. The tree must be that of the mesh. `panes` are those that dim
-    /// light (local_panes); where none is given, panes do not count.
+    /// The tree must be that of the mesh. `panes` are those that dim light (local_panes); where
+    /// none is given, panes do not count.
     HiddenExchange(const Mesh& mesh, const WideBvh& tree, std::span<const Polygon> panes = {})
         : mesh_(mesh), tree_(tree), panes_(panes) {}
 

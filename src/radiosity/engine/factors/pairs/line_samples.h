@@ -35,7 +35,7 @@ class LineSamples {
     static constexpr std::uint32_t first_lines = 16;
 
     /// Lines lie across the larger of the two. `between` are the facets that may stand between
-    /// them; those that hide most are moved to its front. All of it must outlive this.
+    /// them; those that hide most are moved to its front.
     LineSamples(const FacePlane& a, const FacePlane& b, std::span<Polygon> between,
                 LinesAlong along, std::uint64_t seed);
 

@@ -40,7 +40,7 @@ inline constexpr double everywhere = std::numeric_limits<double>::infinity();
 class PairLook {
   public:
     /// Prepares looks; `near` is as in look_at, and `visibility` is false where nothing can stand
-    /// between two patches. The mesh and the tracer outlive this.
+    /// between two patches.
     PairLook(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
              double near, bool visibility = true);
 

@@ -31,7 +31,6 @@ struct SeenFactor {
 /// Sees targets from one point after the other. It has memory of its own; one for each thread.
 class TargetView {
   public:
-    /// All of this must outlive the view.
     TargetView(const Mesh& mesh, const WideBvh& tree, const PointFactorOptions& options)
         : mesh_(mesh), tree_(tree), options_(options) {}
 

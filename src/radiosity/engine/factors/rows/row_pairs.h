@@ -15,7 +15,7 @@
 
 namespace hemilux {
 
-/// What all rows are found of; it must outlive them.
+/// What all rows are found of.
 struct PairSearch {
     const Mesh& mesh;
     const WideBvh& tree;

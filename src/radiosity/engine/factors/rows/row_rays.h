@@ -29,7 +29,7 @@ struct RowView {
     std::vector<OpenShare> bands; ///< of the sky
 };
 
-/// What rays look at; all of it outlives them.
+/// What rays look at.
 struct RowScene {
     const Mesh& mesh;
     const Tracer& tracer;

@@ -1,4 +1,4 @@
-#include "io/scene_files/camera_text.h"
+#include "io/pictures/camera_text.h"
 #include "support/catch.h"
 
 #include <string>

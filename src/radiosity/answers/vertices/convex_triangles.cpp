@@ -1,4 +1,4 @@
-#include "geometry/convex_triangles.h"
+#include "radiosity/answers/vertices/convex_triangles.h"
 
 #include "geometry/elementary.h"
 
