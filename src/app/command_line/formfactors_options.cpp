@@ -26,8 +26,8 @@ std::optional<std::uint32_t> power_of_two(const std::string& text) {
 } // namespace
 
 Command add_formfactors_command(Arguments& program, FormFactorSettings& settings) {
-    const Command command =
-        program.add_command("formfactors", "write form factors of `matrix`; viewfactors --by patch: with errors");
+    const Command command = program.add_command(
+        "formfactors", "write form factors of `matrix`; viewfactors --by patch: with errors");
     const Command method = command.under(method_group);
     add_scene_options(command, settings.scene);
     add_memory_option(command.under(scene_group), settings.scene);

@@ -1,10 +1,10 @@
 #include "io/pictures/picture_files.h"
 
-#include "io/files/provenance.h"
-#include "radiosity/answers/images/tone.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
+#include "io/files/provenance.h"
 #include "io/pictures/picture_provenance.h"
+#include "radiosity/answers/images/tone.h"
 
 #include <algorithm>
 #include <array>

@@ -132,8 +132,8 @@ TEST_CASE("the sun ends on a coarse sphere where it ends on the sphere", "[smoot
     const Workers workers(2);
     const auto gather = [&] {
         return gather_texels(model.mesh, model.bvh, light, texels,
-                               std::vector<bool>(texels.count()),
-                               {.bake = Bake::irradiance, .rays = 16}, workers);
+                             std::vector<bool>(texels.count()),
+                             {.bake = Bake::irradiance, .rays = 16}, workers);
     };
     const auto truth = [&](const Vec3& out) { return 10 * std::max(glm::dot(out, to_sun), 0.0); };
     const Off flat = off_from(gather(), model.mesh, texels, 0, truth);

@@ -72,7 +72,7 @@ TEST_CASE("light does not cross a wall that is thinner than a texel") {
     const SurfaceLight light(model.mesh, PatchLight(solution));
     const GatheredLightmap lightmap =
         gather_texels(model.mesh, model.bvh, light, texels, std::vector<bool>(texels.count()),
-                        {.bake = Bake::irradiance, .rays = 16}, Workers(2));
+                      {.bake = Bake::irradiance, .rays = 16}, Workers(2));
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size / 2; ++x)
             CHECK(lightmap.image.at(x, y).x <= .005 * lightmap.image.at(size / 2 + 1, y).x);
@@ -179,7 +179,7 @@ TEST_CASE("texels have the light of their points, also where a block stands on t
     const std::vector<bool> covered = find_covered(
         mesh, floor.model.bvh, floor.texels, [] {}, workers);
     GatheredLightmap lightmap = gather_texels(mesh, floor.model.bvh, light, floor.texels, covered,
-                                                {.bake = Bake::irradiance, .rays = 64}, workers);
+                                              {.bake = Bake::irradiance, .rays = 64}, workers);
     fill_texels(lightmap, floor.texels, 2);
 
     std::vector<Sensor> sensors;
@@ -213,10 +213,10 @@ TEST_CASE("texels have the light of their points, also where a block stands on t
     SECTION("what sends is that by the reflectance, and only what is reflected by itself is dark") {
         const GatheredLightmap radiosity =
             gather_texels(mesh, floor.model.bvh, light, floor.texels, covered,
-                            {.bake = Bake::radiosity, .rays = 64}, workers);
+                          {.bake = Bake::radiosity, .rays = 64}, workers);
         const GatheredLightmap indirect =
             gather_texels(mesh, floor.model.bvh, light, floor.texels, covered,
-                            {.bake = Bake::indirect, .rays = 64}, workers);
+                          {.bake = Bake::indirect, .rays = 64}, workers);
         CHECK(radiosity.image.at(5, 5).x == Approx(.5f * lightmap.image.at(5, 5).x));
         // Patches reflect nothing in this light; paths find what the near block does.
         CHECK(indirect.image.at(5, 5).x < .02f * lightmap.image.at(5, 5).x);
@@ -238,7 +238,7 @@ TEST_CASE("texels have the light of lights without extent, unless only what is r
     const std::vector<bool> covered(texels.count());
     const Workers workers(2);
     const GatheredLightmap lightmap = gather_texels(model.mesh, model.bvh, light, texels, covered,
-                                                      {.bake = Bake::irradiance}, workers);
+                                                    {.bake = Bake::irradiance}, workers);
     for (std::size_t texel = 0; texel < texels.count(); ++texel) {
         const Vec3 way = lamp - model.mesh.frame().to_world(texels.point(texel).position);
         const double distance = glm::length(way);
@@ -249,7 +249,7 @@ TEST_CASE("texels have the light of lights without extent, unless only what is r
               .error_of(lightmap.image, 256, workers)
               .error < 1e-3);
     const GatheredLightmap indirect = gather_texels(model.mesh, model.bvh, light, texels, covered,
-                                                      {.bake = Bake::indirect}, workers);
+                                                    {.bake = Bake::indirect}, workers);
     CHECK(indirect.image.at(9, 9) == glm::vec3(0));
 }
 
@@ -271,7 +271,7 @@ TEST_CASE("the error of a lightmap is known where one texel in four hundred has 
     const std::vector<bool> covered(texels.count());
     const Workers workers(2);
     GatheredLightmap lightmap = gather_texels(model.mesh, model.bvh, light, texels, covered,
-                                                {.bake = Bake::irradiance}, workers);
+                                              {.bake = Bake::irradiance}, workers);
     double all = 0, off = 0;
     const auto spoil = [&](std::size_t texel) {
         off += std::pow(lightmap.image.pixels[texel].x, 2);
@@ -311,7 +311,7 @@ TEST_CASE("in a room of one radiosity texels at the edges of walls have all the 
     const SurfaceLight light(model.mesh, PatchLight(sent));
     const GatheredLightmap lightmap =
         gather_texels(model.mesh, model.bvh, light, texels, std::vector<bool>(texels.count()),
-                        {.bake = Bake::irradiance, .rays = 64}, Workers(2));
+                      {.bake = Bake::irradiance, .rays = 64}, Workers(2));
     std::size_t edges = 0;
     for (std::size_t k = 0; k < texels.count(); ++k) {
         if (!texels.shows(k))

@@ -116,13 +116,13 @@ TEST_CASE(
     std::atomic<long> all{0};
     const auto gather = [&](std::atomic<long>& polls, long end) {
         return gather_texels(mesh, lit.model.bvh, light, texels, covered,
-                               {.rays = 4,
-                                .check =
-                                    [&polls, end] {
-                                        if (++polls > end)
-                                            throw Interrupted();
-                                    }},
-                               Workers(1));
+                             {.rays = 4,
+                              .check =
+                                  [&polls, end] {
+                                      if (++polls > end)
+                                          throw Interrupted();
+                                  }},
+                             Workers(1));
     };
     const GatheredLightmap whole = gather(all, 1'000'000);
     REQUIRE(whole.rows == size);
