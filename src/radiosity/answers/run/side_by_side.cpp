@@ -26,7 +26,7 @@ Budget Budget::with_end(double rays_of_step) const {
     return budget;
 }
 
-BudgetedRun::BudgetedRun(std::shared_ptr<const Problem> problem, const Method& method,
+BudgetedRun::BudgetedRun(const std::shared_ptr<const Problem>& problem, const Method& method,
                          SolveOptions options, const Budget& budget, Monitor& monitor)
     : budget_(budget),
       run_(begin(problem, method,

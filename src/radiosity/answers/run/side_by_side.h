@@ -30,8 +30,8 @@ class BudgetedRun {
   public:
     /// `options` are those of the run but for a step's rays, of which a budget of time may leave
     /// fewer. Throws SolveError.
-    BudgetedRun(std::shared_ptr<const Problem> problem, const Method& method, SolveOptions options,
-                const Budget& budget, Monitor& monitor);
+    BudgetedRun(const std::shared_ptr<const Problem>& problem, const Method& method,
+                SolveOptions options, const Budget& budget, Monitor& monitor);
 
     /// Takes a step; false when it was interrupted, or cut short as it took much longer than the
     /// budget.
