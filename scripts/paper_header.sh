@@ -10,6 +10,7 @@
 # Include it in one file of a program: it holds the bodies of all functions.
 set -eu
 cd "$(dirname "$0")/.."
+command -v awk >/dev/null || { echo "awk is needed" >&2; exit 77; }
 
 files() { # SUFFIX: the files of the storey
     find src/geometry src/bvh src/radiosity/paper -name "*.$1" -not -path 'src/bvh/wide/*' | LC_ALL=C sort
