@@ -36,7 +36,7 @@ int main(int count, char** arguments) {
     const WantedPoint on_table[] = {{{1.6, .75, 1.3}, {0, 1, 0}}, {{2, .75, 1.5}, {0, 1, 0}}};
     const auto points = gather_points(gatherer, on_table);
     for (const PointLight& at : points.value.found.lights)
-        std::printf("%.1f W/m2 of red light, standard error %.1f\n", at.irradiance.r,
+        std::printf("%.1f W/m2 of red light, standard error %.2f\n", at.irradiance.r,
                     at.standard_error.r);
     const WantedPicture wanted{
         .camera = automatic_camera(scene.mesh, scene.tracer, scene.radiosity), .size = {320, 240}};

@@ -2,8 +2,8 @@
 
 #include "app/loading/load.h"
 #include "app/settings/exit_code.h"
-#include "io/polygons/polygon_division.h"
 #include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/light/polygons/polygon_division.h"
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
 #include "io/gltf/instances.h"
 #include "io/gltf/primitives.h"
 #include "io/gltf/texture_maps.h"
-#include "io/polygons/polygon_division.h"
 #include "io/scene_files/read_result.h"
+#include "radiosity/light/polygons/polygon_division.h"
 
 #include <array>
 #include <cstddef>

@@ -3,9 +3,9 @@
 #include "geometry/box.h"
 #include "io/files/error.h"
 #include "io/files/text_reader.h"
-#include "io/polygons/polygon_division.h"
 #include "io/scene_files/material_table.h"
 #include "io/scene_files/obj_statements.h"
+#include "radiosity/light/polygons/polygon_division.h"
 #include "radiosity/light/textures/scene_textures.h"
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include "io/files/little_endian.h"
 #include "io/files/text_reader.h"
 #include "io/files/text_words.h"
-#include "io/polygons/polygon_division.h"
 #include "radiosity/engine/needs/welded_edges.h"
+#include "radiosity/light/polygons/polygon_division.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include "io/files/error.h"
 #include "io/files/text_reader.h"
 #include "io/files/text_words.h"
-#include "io/polygons/polygon_division.h"
+#include "radiosity/light/polygons/polygon_division.h"
 
 #include <algorithm>
 #include <charconv>

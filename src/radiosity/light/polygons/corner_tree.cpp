@@ -1,6 +1,6 @@
-#include "io/polygons/corner_tree.h"
+#include "radiosity/light/polygons/corner_tree.h"
 
-#include "io/polygons/planar_turn.h"
+#include "radiosity/light/polygons/planar_turn.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,6 +1,6 @@
-#include "io/polygons/self_crossing.h"
+#include "radiosity/light/polygons/self_crossing.h"
 
-#include "io/polygons/planar_turn.h"
+#include "radiosity/light/polygons/planar_turn.h"
 
 #include <algorithm>
 #include <vector>

@@ -7,7 +7,7 @@
 // their normal, which is that of the area vector (Newell's method).
 
 #include "geometry/vector.h"
-#include "io/polygons/ear_clipping.h"
+#include "radiosity/light/polygons/ear_clipping.h"
 
 #include <array>
 #include <cstdint>

@@ -1,9 +1,9 @@
-#include "io/polygons/polygon_division.h"
+#include "radiosity/light/polygons/polygon_division.h"
 
 #include "geometry/box.h"
 #include "geometry/frame.h"
-#include "io/polygons/planar_turn.h"
-#include "io/polygons/self_crossing.h"
+#include "radiosity/light/polygons/planar_turn.h"
+#include "radiosity/light/polygons/self_crossing.h"
 
 #include <algorithm>
 #include <cmath>

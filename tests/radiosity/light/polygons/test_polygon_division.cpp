@@ -1,8 +1,8 @@
-#include "io/polygons/polygon_division.h"
+#include "radiosity/light/polygons/polygon_division.h"
 
 #include "geometry/frame.h"
 #include "geometry/polygon.h"
-#include "io/polygons/ear_clipping.h"
+#include "radiosity/light/polygons/ear_clipping.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 

@@ -1,6 +1,6 @@
-#include "io/polygons/ear_clipping.h"
+#include "radiosity/light/polygons/ear_clipping.h"
 
-#include "io/polygons/planar_turn.h"
+#include "radiosity/light/polygons/planar_turn.h"
 
 #include <algorithm>
 

@@ -8,7 +8,7 @@
 // triangles, where cutting in order would give a fan of slivers.
 
 #include "geometry/vector.h"
-#include "io/polygons/corner_tree.h"
+#include "radiosity/light/polygons/corner_tree.h"
 
 #include <array>
 #include <cstdint>
