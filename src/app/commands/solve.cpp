@@ -280,16 +280,6 @@ std::vector<NamedLayout> lightmap_layouts(const Task& problem) {
     return layouts;
 }
 
-/// Adds what it took to gather the light of a target, and its error, which is that of the run.
-void add_target(Statistics& statistics, const Answer<Solution>& gathered) {
-    statistics.estimated_error = gathered.error.whole;
-    statistics.error_bound = gathered.error.bound;
-    statistics.estimated_error_uncertainty = gathered.error.uncertainty;
-    statistics.rays_learn += gathered.work.rays_learn;
-    statistics.rays_gather += gathered.work.rays_gather;
-    statistics.seconds_learn += gathered.work.seconds_learn;
-}
-
 /// The light of the outputs.
 struct GivenLight {
     GatheredLight gathered;

@@ -30,6 +30,21 @@ Asked asked_of(const SolveSettings& settings, double error, const Solution& solu
     return asked;
 }
 
+void add_work(Statistics& statistics, const Work& work) {
+    statistics.rays_learn += work.rays_learn;
+    statistics.rays_gather += work.rays_gather;
+    statistics.seconds_learn += work.seconds_learn;
+    statistics.seconds_gather += work.seconds_gather;
+}
+
+/// Makes this the error of the run.
+void enter(Statistics& statistics, const AnswerError& error) {
+    statistics.estimated_error = error.whole;
+    statistics.error_bound = error.bound;
+    statistics.estimated_error_uncertainty = error.uncertainty;
+    statistics.error_local = error.local;
+}
+
 } // namespace
 
 bool gathers_picture(const SolveSettings& settings) {
@@ -73,31 +88,30 @@ std::vector<WantedPoint> wanted_points(std::span<const NamedPoint> points) {
 
 void add_gathered(Statistics& statistics, const SolveSettings& settings,
                   const GatheredLight& gathered) {
-    const Work work = gathered.work();
-    statistics.rays_learn += work.rays_learn;
-    statistics.rays_gather += work.rays_gather;
+    Work work = gathered.work();
     // What points take is all to learn their light: their rays are not those of pictures.
     const double at_points = gathered.points ? gathered.points->work.seconds_gather : 0;
-    statistics.seconds_learn += work.seconds_learn + at_points;
-    statistics.seconds_gather += work.seconds_gather - at_points;
-    for (std::size_t k = 0; k < gathered.lightmaps.size(); ++k) {
-        const auto& [light, error, took] = gathered.lightmaps[k];
-        if (!gathered.objects[k].empty() && !std::isnan(error.whole))
+    work.seconds_learn += at_points;
+    work.seconds_gather -= at_points;
+    add_work(statistics, work);
+    for (const auto& [light, error, took] : gathered.lightmaps)
+        if (!light.object.empty() && !std::isnan(error.whole))
             statistics.objects.push_back(
-                {gathered.objects[k], light.texels, light.rays, error.whole, error.bound});
-    }
+                {light.object, light.texels, light.rays, error.whole, error.bound});
     const AnswerError error = gathered.largest_error();
     if (!std::isnan(error.whole) && gives_gathered_light(settings)) {
-        statistics.estimated_error = error.whole;
-        statistics.error_bound = error.bound;
-        statistics.estimated_error_uncertainty = error.uncertainty;
-        statistics.error_local = error.local;
+        enter(statistics, error);
         statistics.estimated_error_of = ErrorOf::gathered;
     }
     if (gathered.points)
         statistics.answers.push_back({"points", gathered.points->error});
     if (gathered.picture)
         statistics.answers.push_back({"picture", gathered.picture->error});
+}
+
+void add_target(Statistics& statistics, const Answer<Solution>& gathered) {
+    enter(statistics, gathered.error);
+    add_work(statistics, gathered.work);
 }
 
 void log_error_of_points(const SolveSettings& settings, const GatheredLight& gathered) {

@@ -38,6 +38,9 @@ namespace hemilux {
 void add_gathered(Statistics& statistics, const SolveSettings& settings,
                   const GatheredLight& gathered);
 
+/// Adds what it took to gather the light of a target, and its error, which is that of the run.
+void add_target(Statistics& statistics, const Answer<Solution>& gathered);
+
 /// Logs the error of the light at points where the error of the run is that of other light.
 void log_error_of_points(const SolveSettings& settings, const GatheredLight& gathered);
 

@@ -79,11 +79,6 @@ Camera camera_of(const ViewSettings& view, const LitScene& scene) {
                                         .camera);
 }
 
-std::string squares_text(PixelSize size) {
-    const int square = square_for_speed(size.width, size.height);
-    return square > 1 ? formatted(", in squares of %d pixels", square) : "";
-}
-
 void write_picture(const Output& output, const Image& image, const ViewSettings& view,
                    const Provenance& from) {
     if (output.kind == OutputKind::hdr)

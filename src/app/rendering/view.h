@@ -29,10 +29,6 @@ void check_camera(const ViewSettings& view, const Mesh& mesh, const std::string&
 /// Returns the camera given, or one chosen for the scene.
 [[nodiscard]] Camera camera_of(const ViewSettings& view, const LitScene& scene);
 
-/// Returns what a log adds on pictures of this size that are rendered so fast: empty for small
-/// ones.
-[[nodiscard]] std::string squares_text(PixelSize size);
-
 /// Writes a .png file, by the exposure of the view, or the light alone in an .hdr or .exr file.
 /// Throws OutputError.
 void write_picture(const Output& output, const Image& image, const ViewSettings& view,

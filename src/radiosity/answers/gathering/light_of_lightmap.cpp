@@ -90,9 +90,9 @@ ImageTarget::OneRound LightmapOfTexels::gather_round(const Round& round, const W
 
 LightOfLightmap LightmapOfTexels::take() {
     LightOfLightmap light;
+    light.object = wanted_.object;
     light.texels = static_cast<std::uint64_t>(std::ranges::count(found_.known, true));
     light.rows = found_.rows;
-    light.is_complete = found_.rows == texels_.size();
     fill_texels(found_, texels_, wanted_.layout.margin);
     light.image = std::move(found_.image);
     return light;
@@ -117,7 +117,8 @@ Answer<LightOfLightmap> gather_lightmap(Gatherer& gatherer, const WantedLightmap
     return answer;
 }
 
-std::string end_text(const std::string& object, const LightOfLightmap& lightmap) {
+std::string end_text(const LightOfLightmap& lightmap) {
+    const std::string& object = lightmap.object;
     const std::string later = object.empty() ? "" : " and later objects";
     if (lightmap.rows == 0)
         return "interrupted; " +

@@ -21,12 +21,14 @@ struct WantedLightmap {
 };
 
 struct LightOfLightmap {
-    Image image; ///< [W/m2]
+    std::string object; ///< WantedLightmap::object
+    Image image;        ///< [W/m2]
     TargetLevel level;
     std::uint64_t texels = 0; ///< that were gathered
     unsigned rays = 0;        ///< at each of them
-    int rows = 0;             ///< finished, from the first
-    bool is_complete = false; ///< all rows are; otherwise the others have the light of patches
+    int rows = 0;             ///< gathered, from the first; the others have the light of patches
+
+    [[nodiscard]] bool is_complete() const { return rows == image.height; }
 };
 
 /// Returns a lightmap. A signal leaves the light of the patches in the rows that are not gathered.
@@ -35,6 +37,6 @@ struct LightOfLightmap {
                                                       const std::optional<WholeLight>& whole = {});
 
 /// Returns what is said where a signal left such a lightmap.
-[[nodiscard]] std::string end_text(const std::string& object, const LightOfLightmap& lightmap);
+[[nodiscard]] std::string end_text(const LightOfLightmap& lightmap);
 
 } // namespace hemilux

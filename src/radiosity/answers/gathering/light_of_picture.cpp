@@ -81,13 +81,12 @@ std::optional<Image> PictureTarget::complete() {
     const auto first = static_cast<std::ptrdiff_t>(of_patches.index(0, rows));
     std::copy(of_patches.pixels.begin() + first, of_patches.pixels.end(),
               image.pixels.begin() + first);
-    const int square = square_for_speed(wanted_.size.width, wanted_.size.height);
     gatherer_.watcher().tell(
         Finding::Kind::ended_early,
         "interrupted; rows 1 to " + grouped(static_cast<std::uint64_t>(rows)) + " of " +
             grouped(static_cast<std::uint64_t>(image.height)) +
             " of pictures are gathered, the others show the light of the patches" +
-            (square > 1 ? formatted(", in squares of %d pixels", square) : ""));
+            squares_text(wanted_.size));
     return std::move(image);
 }
 

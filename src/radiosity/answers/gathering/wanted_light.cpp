@@ -12,9 +12,9 @@ namespace {
 /// leave none within their triangles.
 void warn_of_unknown_errors(const GatheredLight& light, Watcher& watcher) {
     std::uint64_t unknown = 0;
-    for (std::size_t k = 0; k < light.lightmaps.size(); ++k)
-        unknown += !light.objects[k].empty() && light.lightmaps[k].value.is_complete &&
-                   !std::isfinite(light.lightmaps[k].error.bound);
+    for (const auto& [lightmap, error, work] : light.lightmaps)
+        unknown +=
+            !lightmap.object.empty() && lightmap.is_complete() && !std::isfinite(error.bound);
     if (unknown > 0)
         watcher.tell(Finding::Kind::warning,
                      "the error of " + counted(unknown, "object", "objects") +
@@ -65,16 +65,15 @@ GatheredLight gather(Gatherer& gatherer, const WantedLight& wanted, const Gather
         if (layout.triangles.empty())
             continue;
         const std::size_t number = light.lightmaps.size();
-        light.objects.push_back(object);
         light.lightmaps.push_back(
             gather_lightmap(gatherer, {object, layout, wanted.bake, number},
                             whole && number < whole->lightmaps.size()
                                 ? whole_of(whole->lightmaps[number].value.level)
                                 : std::nullopt));
         const LightOfLightmap& found = light.lightmaps.back().value;
-        if (!found.is_complete && !has_ended)
-            gatherer.watcher().tell(Finding::Kind::ended_early, end_text(object, found));
-        has_ended |= !found.is_complete;
+        if (!found.is_complete() && !has_ended)
+            gatherer.watcher().tell(Finding::Kind::ended_early, end_text(found));
+        has_ended |= !found.is_complete();
     }
     warn_of_unknown_errors(light, gatherer.watcher());
     if (wanted.picture)

@@ -26,7 +26,6 @@ struct GatheredLight {
     bool was_wanted = false; ///< any light was
     std::optional<Answer<GatheredPoints>> points = {};
     std::vector<Answer<LightOfLightmap>> lightmaps = {};
-    std::vector<std::string> objects = {}; ///< NamedLayout::object, by lightmap
     std::optional<Answer<LightOfPicture>> picture =
         {}; ///< empty too where a signal left no row of it
 

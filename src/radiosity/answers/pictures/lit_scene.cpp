@@ -1,6 +1,7 @@
 #include "radiosity/answers/pictures/lit_scene.h"
 
 #include "parallel/asked_to_end.h"
+#include "radiosity/answers/asked/text.h"
 
 #include <utility>
 
@@ -24,6 +25,11 @@ Image render_in_time(RenderOptions options,
         options.square = square_for_speed(options.width, options.height);
         return render(options);
     }
+}
+
+std::string squares_text(PixelSize size) {
+    const int square = square_for_speed(size.width, size.height);
+    return square > 1 ? formatted(", in squares of %d pixels", square) : "";
 }
 
 Image render_view(const LitScene& scene, const Camera& camera, RenderOptions options) {

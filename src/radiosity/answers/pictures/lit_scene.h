@@ -8,6 +8,7 @@
 #include <atomic>
 #include <functional>
 #include <span>
+#include <string>
 
 namespace hemilux {
 
@@ -29,6 +30,10 @@ struct LitScene {
 /// there as fast as can be: large ones in squares.
 [[nodiscard]] Image render_in_time(RenderOptions options,
                                    const std::function<Image(const RenderOptions&)>& render);
+
+/// Returns what is said besides of pictures of this size that are rendered so fast: empty for small
+/// ones.
+[[nodiscard]] std::string squares_text(PixelSize size);
 
 /// Renders the light of the patches so, as the camera sees it, with the textures of surfaces.
 [[nodiscard]] Image render_view(const LitScene& scene, const Camera& camera, RenderOptions options);
